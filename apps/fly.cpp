@@ -24,6 +24,7 @@
 #include "flight/files_of_kind.hpp"
 #include "flight/groot_link.hpp"
 #include "flight/leaf_libraries.hpp"
+#include "flight/mission_limits.hpp"
 #include "flight/stop_signals.hpp"
 #include "flight/web_link.hpp"
 #include "simulated_flight/flight.hpp"
@@ -228,8 +229,10 @@ void printEnd(const simulated_flight::FlightResult& result, bool json) {
 }
 
 /// What `check` warns of does not keep the vehicle on the ground.
-void showWarnings(const std::vector<flight::FlightMission>& missions, const tree::Registry& types, bool headless) {
+void showWarnings(const std::vector<flight::FlightMission>& missions, const flight::System& system,
+                  const tree::Registry& types, bool headless) {
   behaviors::MissionLimits limits;
+  limits.unseen_below_m = flight::unseenBelow_m(system);
   limits.operator_goes_on = limits.operator_gives_goals = !headless;
   for (const flight::FlightMission& mission : missions) {
     for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits, types).warnings)
@@ -252,8 +255,7 @@ std::unique_ptr<flight::WebLink> servePage(const FlyOptions& options, const simu
 int fly(const FlyOptions& options) {
   simulated_flight::SimulatedSetup setup = setupOf(options);
   std::vector<flight::FlightMission> missions = simulated_flight::soundMissions(setup, !options.map.empty());
-  showWarnings(missions, *setup.types, options.headless);
-  showNotes(flight::notesOfSensors(setup.system));
+  showWarnings(missions, setup.system, *setup.types, options.headless);
   if (!options.map.empty()) {
     setup.map = std::make_shared<const flight::FlightMap>(flight::readFlightMap(options.map));
     showNotes(setup.map->notes);

@@ -1,5 +1,5 @@
 // Explore: SUCCESS when every remaining frontier has a reason why it is left; lying outside `bounds` is such a reason,
-// being blocked for now is not.
+// being blocked for a time is not.
 #include "behaviors/leaves.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ tree::NodeManifest Explore::manifest() {
               "Within `x_min;y_min;x_max;y_max` if `bounds` are given; out of the building, where too few walls tell "
               "the position, only with `leave_building=\"true\"`.",
           .ends =
-              "SUCCESS when every remaining frontier has a reason; FAILURE if one is blocked only for now, by a "
+              "SUCCESS when every remaining frontier has a reason; FAILURE if one is blocked only for a time, by a "
               "person in a door, until the charge is needed"};
 }
 

@@ -22,6 +22,8 @@ struct MissionLimits {
   double measured_height_m = std::numeric_limits<double>::infinity();
   /// Above the take-off floor, from which on they measure it: no flight may be lower.
   double least_measured_height_m = 0.0;
+  /// How far the hull reaches below the plane of the laser where no camera looks.
+  double unseen_below_m = 0.0;
   bool has_camera = true;  ///< The vehicle has an RGB-D camera; nodes that take pictures need one.
   /// Names of the targets that the profile looks for; nullopt: any name is accepted.
   std::optional<std::vector<std::string>> target_names = {};

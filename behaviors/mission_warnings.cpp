@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "behaviors/flight_order.hpp"
 #include "behaviors/leaf_traits.hpp"
@@ -10,6 +11,10 @@
 
 namespace swiftlet::behaviors {
 namespace {
+
+/// Worktops and bars end up to here. Who flies higher flies above shelves and half-high cabinets, on which things
+/// stand.
+constexpr double kFurniture_m = 1.1;
 
 constexpr const char* kOperatorHint = "fly with the page, or give the trial an `operator` script";
 
@@ -24,6 +29,8 @@ class Warnings {
     for (const tree::NodeRecord& record : tree_.nodes())
       if (typeNameOf(record).starts_with("Parallel")) checkParallel(*record.node);
     checkLanding();
+    for (const tree::NodeRecord& record : tree_.nodes())
+      if (typeNameOf(record) == "TakeOff") checkHeight(record);
     return findOfOperator();
   }
 
@@ -83,6 +90,23 @@ class Warnings {
          tree::Message("mission.two-fly", "`{}` and `{}` fly in the same tick, and only the last intent is flown",
                        flying[0], flying[1]),
          "let one child fly and the others watch");
+  }
+
+  /// A vehicle above the furniture meets what stands on it, such as a book on a shelf.
+  void checkHeight(const tree::NodeRecord& take_off) {
+    for (const tree::Value& value : tree_.knownValues(take_off.node->id(), "height_m")) {
+      const double* height_m = std::get_if<double>(&value);
+      if (height_m == nullptr || limits_.unseen_below_m <= 0.0) continue;
+      const double bottom_m = *height_m - limits_.unseen_below_m;
+      if (bottom_m < kFurniture_m) continue;
+      return warn(
+          take_off.node->id(),
+          tree::Message("mission.unseen-below",
+                        "the hull is between {:.2f} and {:.2f} m, where no sensor sees what ends there, such as "
+                        "a book on a shelf",
+                        bottom_m, *height_m),
+          "fly where nothing ends at that height, or with a profile that has an rgbd_camera");
+    }
   }
 
   bool isUnreached(int id) const {

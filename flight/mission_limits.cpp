@@ -1,5 +1,7 @@
 #include "flight/mission_limits.hpp"
 
+#include <algorithm>
+
 #include "autonomy/flight_sensors.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/error.hpp"
@@ -8,8 +10,13 @@
 
 namespace swiftlet::flight {
 
+double unseenBelow_m(const System& system) {
+  return system.rgbd_camera ? 0.0 : std::max(0.5 * system.vehicle.hull_height_m + system.laser.mount.z_m, 0.0);
+}
+
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
   behaviors::MissionLimits limits;
+  limits.unseen_below_m = unseenBelow_m(system);
   limits.max_height_m = system.vehicle.max_height_m;
   limits.measured_height_m = autonomy::measuredHeight_m(system.laser);
   limits.least_measured_height_m = autonomy::leastMeasuredHeight_m(system.laser);

@@ -10,6 +10,9 @@
 
 namespace swiftlet::flight {
 
+/// How far the hull reaches below the plane of the laser, if no camera looks there; otherwise 0.
+double unseenBelow_m(const System& system);
+
 behaviors::MissionLimits missionLimits(const System& system, bool has_map);
 
 /// Every problem of a mission, that of its file included, if it is to be flown with this system, and with a map of

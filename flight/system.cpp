@@ -289,19 +289,6 @@ std::vector<common::Problem> problemsOfLqr(const System& system) {
   return problems;
 }
 
-std::vector<common::Problem> notesOfSensors(const System& system) {
-  const double below_m = 0.5 * system.vehicle.hull_height_m + system.laser.mount.z_m;
-  if (system.rgbd_camera || below_m <= 0.0) return {};
-  return {
-      {{},
-       "laser",
-       common::Message("sensors.unseen-below",
-                       "the hull of {} reaches {:.2f} m below the plane of {}, and no camera looks there: what ends "
-                       "within that band, such as a book on a shelf, is not seen",
-                       system.vehicle.name, below_m, system.laser.name),
-       "fly at a height where nothing ends, or with a profile that has an rgbd_camera, such as `swiftlet_3d`"}};
-}
-
 std::vector<common::Problem> problemsOfSensors(const System& system) {
   const autonomy::AutonomyConfig& config = system.config.autonomy;
   const autonomy::ScanNeeds needs = {

@@ -67,8 +67,6 @@ std::vector<common::Problem> problemsOfLqr(const System& system);
 /// Why the sensors of this system cannot carry a flight, each with the place in the profile; empty if they can. They
 /// may serve for logs nevertheless.
 std::vector<common::Problem> problemsOfSensors(const System& system);
-/// What a flight is told beforehand of what its sensors do not see; empty if they see all that the hull could touch.
-std::vector<common::Problem> notesOfSensors(const System& system);
 
 /// `name` is a data sheet of config/sensors or a file. Throws common::InputError.
 common::LaserConfig loadLaser(const std::string& name);

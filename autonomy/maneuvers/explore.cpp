@@ -1,6 +1,6 @@
 // Explore: flies from viewpoint to viewpoint until every remaining frontier has a reason why it is left. What is
-// blocked only for now, by a person in a door, is no such reason: it waits where it sees the blockage, as long as the
-// charge allows, and fails as incomplete then.
+// blocked only for a time, by a person in a door, is no such reason: it waits where it sees the blockage, as long as
+// the charge allows, and fails as incomplete then.
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -1,7 +1,8 @@
 // What blocks a path today and may be gone tomorrow: people, and what came to where the vehicle flew before. A map
-// without it tells a way that is blocked for now from one that is walled.
+// without it tells a way that is blocked for a time from one that is walled.
 //
-//   grid, people, trail --> things that may go --> the grid as if they had gone --> a path only there: blocked for now
+//   grid, people, trail --> things that may go --> the grid as if they had gone --> a path only there: blocked for a
+//   time
 #pragma once
 
 #include <span>

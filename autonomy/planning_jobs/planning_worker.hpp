@@ -49,7 +49,7 @@ struct PlanningAnswer {
   std::shared_ptr<const planning::TwoHeights> heights;
   std::optional<DetourPlan> detour;                        ///< For a DetourRequest; nullopt without a place.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
-  /// Where there is no path to the goal, or no frontier is open; nullopt: it is not blocked only for now.
+  /// Where there is no path to the goal, or no frontier is open; nullopt: it is not blocked only for a time.
   std::optional<Blockage> blockage;
   /// Of an exploration that has nothing open and no blockage: where free space was seen behind a gap that is too
   /// narrow.

@@ -165,6 +165,8 @@ const char* toString(PortType type) {
 
 std::string_view unitOf(std::string_view port_name) {
   if (findUnit(port_name) != nullptr) return port_name;
+  // `coverage_min` is the least one; a time in minutes has a port named after something else.
+  if (port_name.ends_with("_min")) return {};
   // The longest ending that is a unit: `speed_m_s` is in m_s, not in s.
   for (std::size_t i = port_name.find('_'); i != std::string_view::npos; i = port_name.find('_', i + 1))
     if (findUnit(port_name.substr(i + 1)) != nullptr) return port_name.substr(i + 1);

@@ -43,6 +43,16 @@ struct SliceRay {
   Incidence incidence = Incidence::kUnknown;
 };
 
+/// A scan that is being drawn, cut into slices.
+struct SlicedScan {
+  int laser_slice = 0;     ///< The slice of the laser.
+  common::Duration lasts;  ///< Since the one before, or less.
+  std::map<int, std::vector<SliceRay>> rays;
+  std::vector<common::CellIndex> ended;            ///< Cells that its beams ended in, at any height; sorted.
+  Eigen::Vector2d body = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
+  std::vector<std::uint32_t> marks;                ///< Of the cells around, in one slice.
+};
+
 /// In each slice, cells where beams end gain confidence and cells that beams cross lose it, each at most once a scan. A
 /// beam without return crosses cells only up to the first one that is occupied at flight height, or in which another
 /// beam of its scan ended. A wall that is dark, or hit at a grazing angle, returns no beam, so nothing is known behind
@@ -67,15 +77,6 @@ class SlicedMap {
  private:
   /// What beams of one scan did to one cell in one slice.
   enum class Met { kEnded, kPassedInside, kPassed };
-  /// Of the scan being drawn.
-  struct Scan {
-    int laser_slice = 0;     ///< The slice of the laser.
-    common::Duration lasts;  ///< Since the one before, or less.
-    std::map<int, std::vector<SliceRay>> rays;
-    std::vector<common::CellIndex> ended;            ///< Cells that its beams ended in, at any height; sorted.
-    Eigen::Vector2d body = Eigen::Vector2d::Zero();  ///< In cells, with fractions.
-    std::vector<std::uint32_t> marks;
-  };
   int sliceAt(double height_m) const;
   bool isCombined(int slice) const { return slice >= lowest_ && slice <= highest_; }
   void split(const DrawnScan& scan, const common::Pose2& T_map_body);
@@ -104,7 +105,7 @@ class SlicedMap {
   int highest_ = -1;
   int drawn_ = 0;             ///< Number of drawn scans.
   common::Time drawn_stamp_;  ///< Of the last one.
-  Scan scan_;                 ///< Working memory.
+  SlicedScan scan_;           ///< Working memory.
 };
 
 }  // namespace swiftlet::perception

@@ -46,29 +46,6 @@ TEST(Estimator, MatchedScansCorrectTheStateAndDrawTheMap) {
   EXPECT_EQ(story.estimator.maps().grid, grid) << "the same object until the map changes";
 }
 
-TEST(Estimator, BeamsThatPassBelowSomethingDoNotClearIt) {
-  // A post stands ahead for a while, then the laser sees past its place: it has left, or the vehicle has come down.
-  const auto cellsOfPost = [](double below_map_m) {
-    EstimatorStory story(2.5);
-    const common::Pose2 start = planar(story.truthAt(Time{}));
-    const Eigen::Vector2d post_m = start * Eigen::Vector2d(1.3, 0.0);
-    const test::PlanarWorld empty = story.world;
-    story.world.addBox(post_m.x(), post_m.y(), 0.2, 0.2);
-    story.run(1.4);  // Long enough that the beams past it, drawn into the map, do not clear it by themselves.
-    story.world = empty;
-    story.feedback.below_map_m = below_map_m;
-    story.run(1.95);
-    const auto grid = story.estimator.maps().grid;
-    int occupied = 0;
-    for (double x = -0.2; x <= 0.2; x += 0.05)
-      for (double y = -0.2; y <= 0.2; y += 0.05)
-        occupied += common::occupancy::isOccupied(grid->at(grid->cellAt(post_m + Eigen::Vector2d(x, y)))) ? 1 : 0;
-    return occupied;
-  };
-  EXPECT_GE(cellsOfPost(0.45), 2);
-  EXPECT_EQ(cellsOfPost(0.0), 0);
-}
-
 TEST(Estimator, MirrorBeamsCorrectTheHeight) {
   EstimatorStory story(12.0);
   double worst_m = 0.0;

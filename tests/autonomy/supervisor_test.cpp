@@ -144,10 +144,11 @@ TEST_F(SupervisorStory, SilentLaserHoldsThenLandsForGood) {
   EXPECT_FALSE(at(1.2).hold);
   EXPECT_TRUE(at(1.4).hold);
   EXPECT_FALSE(at(1.4).land);
-  EXPECT_TRUE(at(2.1).land);
-  EXPECT_THAT(at(2.1).land_reason, HasSubstr("no scan for 1.1 s"));
-  scanAt(2.2);
-  EXPECT_TRUE(at(2.3).land) << "landing is not taken back";
+  EXPECT_FALSE(at(4.2).land) << "three seconds of silence end no flight";
+  EXPECT_TRUE(at(4.4).land);
+  EXPECT_THAT(at(4.4).land_reason, HasSubstr("no scan for 3.4 s"));
+  scanAt(4.5);
+  EXPECT_TRUE(at(4.6).land) << "landing is not taken back";
 }
 
 TEST_F(SupervisorStory, ASilentLaserOnlyHoldsWhileOtherSensorsMeasureThePosition) {

@@ -27,6 +27,18 @@ TEST(Warnings, NameNodesThatAreNeverReached) {
               ElementsAre(At("4:19 Land", "mission.unreached", "`OperatorCommand`")));
 }
 
+TEST(Warnings, NameAFlightAboveFurnitureByALaserAlone) {
+  MissionLimits limits;
+  limits.unseen_below_m = 0.2;
+  const auto warnings = [&limits](const std::string& height_m) {
+    return verdictOn("<Sequence><TakeOff height_m=\"" + height_m + "\"/><Explore/><Land/></Sequence>", limits).warnings;
+  };
+  EXPECT_THAT(warnings("1.4"), ElementsAre(At("3:11 TakeOff", "mission.unseen-below", "between 1.20 and 1.40 m")));
+  EXPECT_THAT(warnings("1.2"), IsEmpty());
+  limits.unseen_below_m = 0.0;
+  EXPECT_THAT(warnings("1.4"), IsEmpty());
+}
+
 TEST(Warnings, NameWhatWaitsForAnOperatorWhoIsNotThere) {
   const std::string inside =
       "<Sequence><TakeOff/>\n<WaitForOperator/><WaitForOperator timeout_s=\"30\"/><LogEvent text=\"a\"/>"

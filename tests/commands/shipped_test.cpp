@@ -158,6 +158,7 @@ TEST(Shipped, EachProfileWithAColourCameraNamesTheSameColours) {
     const std::string name = fs::path(file).stem().string();
     const std::string printed = runSwiftlet({"config", "--system", name}).out;
     if (printed.find("\nrgbd_camera: \"\"") != std::string::npos) continue;
+    if (printed.find("firefly_stereo") != std::string::npos) continue;  // Targets need the depth that a pair has not.
     ++with_camera;
     for (const std::string colour : {"red", "yellow", "green", "blue"})
       EXPECT_NE(printed.find("name: \"" + colour + "\""), std::string::npos) << name << ": " << colour;

@@ -88,12 +88,12 @@ TEST_F(SensorFault, LongSilenceHoldsThenLandsAndIsReported) {
   const auto flight = flyWith("{sensor: laser, kind: silent, from_s: 12.0, to_s: 1000}");
   EXPECT_FALSE(flight.at("mission_done").get<bool>());
   EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);
-  EXPECT_LE(flight.at("estimate_rms_m").get<double>(), 0.15) << "it comes down without a scan, but not far off";
+  EXPECT_LE(flight.at("estimate_rms_m").get<double>(), 0.25) << "it comes down without a scan, but not far off";
   EXPECT_THAT(events(), HasSubstr("no scan for 0.3"));
   EXPECT_THAT(events(), HasSubstr("\"land\""));
   const auto mission = nlohmann::json::parse(readText(path("out/fault-001/mission.json")));
   EXPECT_EQ(mission.at("outcome"), "failed");
-  EXPECT_THAT(mission.at("reason").get<std::string>(), HasSubstr("landed: no scan for 1."));
+  EXPECT_THAT(mission.at("reason").get<std::string>(), HasSubstr("landed: no scan for 3.3 s"));
 }
 
 /// More thrust than the vehicle believes carries it off the floor, and its motors stop before it lies there again.

@@ -31,7 +31,7 @@ TEST_F(PlacesInTheGivenMap, OfAGoalThatIsReached) {
 TEST_F(PlacesInTheGivenMap, OfAGoalToWhichThereIsNoPath) {
   fill(grid_, {{80, 0}, {84, 80}}, kWallCell);
   want(to(6.0, 2.0));
-  ASSERT_EQ(runToTheEnd(30.0), IntentState::kFailed);
+  ASSERT_EQ(runToTheEnd(60.0), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason, "goal (106.00, 2.00) in the given map is unreachable at clearance 0.10 m");
 }
 
