@@ -131,7 +131,8 @@ struct Building {
 
 class WorldMaker {
  public:
-  explicit WorldMaker(const WorldOptions& options) : options_(options), start_(wantedStart(options)) {
+  explicit WorldMaker(const WorldOptions& options)
+      : options_(options), start_(wantedStart(options)), from_height_m_(wantedHeight_m(options)) {
     scenario_.start = start_;
   }
 
@@ -269,7 +270,7 @@ class WorldMaker {
       mapping3d::raiseFloor(building_.space, *options_.floor_m);
     else  // Without a floor the start is refused, with the nearest place that has one.
       (void)mapping3d::growFloor(building_.space, start_map_m(), roomOf(scenario_), scenario_.vehicle.hull_height_m,
-                                 wantedHeight_m(options_));
+                                 from_height_m_);
   }
 
   /// A height that is given is that of a ceiling above the floor at the start.
@@ -283,7 +284,7 @@ class WorldMaker {
     return building_.T_world_map.inverse() * Eigen::Vector2d(start_.x_m, start_.y_m);
   }
   std::optional<StandingPlace> placeOfStart() const {
-    return mapping3d::floorAt(building_.space, start_map_m(), roomOf(scenario_), wantedHeight_m(options_));
+    return mapping3d::floorAt(building_.space, start_map_m(), roomOf(scenario_), from_height_m_);
   }
 
   /// Puts the start on its floor.
@@ -343,6 +344,7 @@ class WorldMaker {
   const WorldOptions& options_;
   simulation::Scenario scenario_;
   simulation::StartConfig start_;
+  std::optional<double> from_height_m_;  ///< See wantedHeight_m.
   Building building_;
   std::optional<FreeSpace> whole_;  ///< With what is not connected with the start, where another may be.
   StandingPlace place_;

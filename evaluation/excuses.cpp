@@ -43,8 +43,7 @@ constexpr Excuse<ContactFacts> kOfContacts[] = {
     {"Glass that never returned a beam cannot be told from air.", unseenGlass},
     {"A person walks into it within 0.6 s of first being in the field of its laser, or while its motors are off, and "
      "would have, too, had it stood or landed from 2 s before: nobody notices and evades in less. A person who never "
-     "was "
-     "in the field came from where it did not look.",
+     "was in the field came from where it did not look.",
      suddenPerson},
 };
 

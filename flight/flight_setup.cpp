@@ -37,7 +37,7 @@ std::vector<FlightMission> soundMissions(const std::vector<std::string>& files, 
 }
 
 void requireCamera(const System& system) {
-  if (system.rgbd_camera && !system.rgbd_camera->isStereo()) return;
+  if (system.hasDepthCamera()) return;
   throw common::InputError({}, "--record-rgbd",
                            common::Message("record.no-camera", "the vehicle of `{}` has no RGB-D camera", system.name),
                            "`--system swiftlet_3d` has one");

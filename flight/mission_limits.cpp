@@ -32,7 +32,7 @@ behaviors::MissionLimits missionLimits(const System& system, bool has_map) {
       return wrong.problems().front();
     }
   };
-  limits.has_camera = system.rgbd_camera && !system.rgbd_camera->isStereo();  // Its pairs have no depths.
+  limits.has_camera = system.hasDepthCamera();
   limits.target_names = system.config.autonomy.estimator.targets.names();
   return limits;
 }

@@ -46,6 +46,9 @@ struct System {
   std::map<std::string, std::string> own_files;
   common::SourceLocation laser_place;  ///< Where the profile, or one that it is based on, names the laser.
 
+  /// An RGB-D camera: the pairs of a stereo camera have no depths.
+  bool hasDepthCamera() const { return rgbd_camera && !rgbd_camera->isStereo(); }
+
   /// The effective profile as YAML that loadSystem can read; with comments, it includes the data sheets that it names.
   std::string toYaml(bool comments) const;
 

@@ -29,32 +29,22 @@ struct DescribedCorner {
 };
 
 std::vector<DescribedCorner> describedCorners(const GrayImage& image) {
-  std::vector<Eigen::Vector2d> pixels;
-  for (const Corner& corner : findCorners(image, kCorners)) pixels.push_back(corner.pixel);
-  const auto descriptors = describePatches(image, pixels);
+  const auto corners = findCorners(image, kCorners);
   std::vector<DescribedCorner> described;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    if (descriptors[i]) described.push_back({pixels[i], *descriptors[i]});
+  for (const DescribedPatch& patch : describedPatches(image, corners))
+    described.push_back({corners[patch.index].pixel, patch.descriptor});
   return described;
 }
 
 /// The corner of `others` that is alike, within the rows that are searched; null without one that is clearly it.
 const DescribedCorner* partnerOf(const DescribedCorner& corner, const std::vector<DescribedCorner>& others,
                                  double rows_px) {
-  const DescribedCorner* best = nullptr;
-  int distance = 257, second = 257;
-  for (const DescribedCorner& other : others) {
-    if (std::abs(other.pixel.y() - corner.pixel.y()) > rows_px) continue;
-    const int apart = corner.descriptor.distance(other.descriptor);
-    if (apart < distance) {
-      second = distance;
-      distance = apart;
-      best = &other;
-    } else {
-      second = std::min(second, apart);
-    }
-  }
-  return distance <= kMostBits && distance <= kMostOfSecond * second ? best : nullptr;
+  NearestDescriptor nearest;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (std::abs(others[i].pixel.y() - corner.pixel.y()) <= rows_px)
+      nearest.consider(corner.descriptor.distance(others[i].descriptor), i);
+  const bool alike = nearest.distance <= kMostBits && nearest.distance <= kMostOfSecond * nearest.second;
+  return alike ? &others[nearest.index] : nullptr;
 }
 
 }  // namespace

@@ -25,29 +25,14 @@ constexpr int kTrials = 200;
 /// Least number of pairs that agree on a pose.
 constexpr std::size_t kLeastPairs = 15;
 
-struct Nearest {
-  std::size_t index = 0;
-  int distance = 257, second = 257;
-};
-
 /// The nearest of the others, for each of both sets. Each distance is computed once.
 struct NearestBothWays {
-  std::vector<Nearest> of_a, of_b;
+  std::vector<NearestDescriptor> of_a, of_b;
 };
-
-void consider(Nearest& nearest, int distance, std::size_t index) {
-  if (distance < nearest.distance) {
-    nearest.second = nearest.distance;
-    nearest.distance = distance;
-    nearest.index = index;
-  } else if (distance < nearest.second) {
-    nearest.second = distance;
-  }
-}
 
 NearestBothWays nearestOf(const std::vector<DescribedPoint>& a, const std::vector<DescribedPoint>& b,
                           const std::optional<Expectation>& expectation) {
-  NearestBothWays nearest{std::vector<Nearest>(a.size()), std::vector<Nearest>(b.size())};
+  NearestBothWays nearest{std::vector<NearestDescriptor>(a.size()), std::vector<NearestDescriptor>(b.size())};
   for (std::size_t j = 0; j < b.size(); ++j) {
     const Eigen::Vector3d at_m =
         expectation ? expectation->T_a_b * b[j].point_camera_m : Eigen::Vector3d(Eigen::Vector3d::Zero());
@@ -55,8 +40,8 @@ NearestBothWays nearestOf(const std::vector<DescribedPoint>& a, const std::vecto
     for (std::size_t i = 0; i < a.size(); ++i) {
       if (expectation && (a[i].point_camera_m - at_m).squaredNorm() > off_m * off_m) continue;
       const int distance = a[i].descriptor.distance(b[j].descriptor);
-      consider(nearest.of_a[i], distance, j);
-      consider(nearest.of_b[j], distance, i);
+      nearest.of_a[i].consider(distance, j);
+      nearest.of_b[j].consider(distance, i);
     }
   }
   return nearest;
@@ -67,7 +52,7 @@ IndexPairs similarPairs(const std::vector<DescribedPoint>& a, const std::vector<
   const auto [of_a, of_b] = nearestOf(a, b, expectation);
   IndexPairs pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Nearest& nearest = of_a[i];
+    const NearestDescriptor& nearest = of_a[i];
     if (nearest.distance > kGreatestDistance || of_b[nearest.index].index != i) continue;
     if (nearest.distance > kGreatestRatio * nearest.second) continue;
     pairs.emplace_back(i, nearest.index);

@@ -30,15 +30,13 @@ constexpr double kPilesUp_s = 5.0;
 /// A clock that leaves the turns by more than this share of one within one does not drift, but jumps.
 constexpr double kClockJump = 0.25;
 
-double seconds(common::Duration duration) { return duration.seconds(); }
-
 }  // namespace
 
 void LaserClock::add(const common::Stamps& stamps) {
-  Arrival arrival{stamps.arrived, seconds(stamps.arrived - stamps.measured)};
+  Arrival arrival{stamps.arrived, (stamps.arrived - stamps.measured).seconds()};
   if (learned_ < kFirstScans && stampFault(stamps, std::nullopt) != nullptr) return;
   if (!recent_.empty()) {
-    const double step_s = seconds(stamps.measured - newest_measured_);
+    const double step_s = (stamps.measured - newest_measured_).seconds();
     const double turns = std::round(step_s / period_s_);
     arrival.off_turns_s = recent_.back().off_turns_s + step_s - turns * period_s_;
     arrival.off_scans_s = recent_.back().off_scans_s + step_s - period_s_;
@@ -48,7 +46,7 @@ void LaserClock::add(const common::Stamps& stamps) {
   newest_measured_ = stamps.measured;
   recent_.push_back(arrival);
   while (learned_ >= kFirstScans && recent_.size() > kLeastScans &&
-         seconds(stamps.arrived - recent_.front().arrived) > kRecent_s)
+         (stamps.arrived - recent_.front().arrived).seconds() > kRecent_s)
     recent_.pop_front();
   judge();
 }
@@ -107,7 +105,7 @@ bool LaserClock::isByClock() const {
   const double change_s = shift_s_ - sound_shift_s_;
   const auto explains = [change_s](double ahead_s) { return -ahead_s / change_s > 0.5; };
   return explains(newest.off_turns_s - sound_.off_turns_s) || explains(newest.off_scans_s - sound_.off_scans_s) ||
-         seconds(newest.arrived - sound_.arrived) > kPilesUp_s;
+         (newest.arrived - sound_.arrived).seconds() > kPilesUp_s;
 }
 
 double LaserClock::tolerance_s() const { return kOff_s + kScatter * scatter_s_; }
@@ -118,7 +116,7 @@ common::Time LaserClock::measured(const common::Stamps& stamps) const {
 }
 
 bool LaserClock::isCredible(const common::Stamps& stamps) const {
-  return learned_ < kFirstScans || seconds(stamps.arrived - measured(stamps)) >= usual_s_ - tolerance_s();
+  return learned_ < kFirstScans || (stamps.arrived - measured(stamps)).seconds() >= usual_s_ - tolerance_s();
 }
 
 }  // namespace swiftlet::autonomy

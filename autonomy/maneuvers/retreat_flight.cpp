@@ -6,12 +6,12 @@ namespace swiftlet::autonomy {
 
 void RetreatFlight::react(const planning::AvoidanceDecision& decision, const common::VehicleState& state) {
   controller_.setSpeedLimit(decision.speed_limit_m_s);
-  look(decision, state.T_map_body_planar());
+  const common::Pose2 T_map_body = state.T_map_body_planar();
+  look(decision, T_map_body);
   if (controller_.state() != common::FlightState::kFlying) {
     yaw_map_rad_.reset();
     return;
   }
-  const common::Pose2 T_map_body = state.T_map_body_planar();
   if (decision.retreat_velocity_level_m_s) {
     if (!active() || decision.turn_rad) yaw_map_rad_ = T_map_body.yaw_rad + decision.turn_rad.value_or(0.0);
     (void)controller_.followVelocity(Eigen::Rotation2Dd(T_map_body.yaw_rad) * *decision.retreat_velocity_level_m_s,
@@ -31,7 +31,6 @@ void RetreatFlight::look(const planning::AvoidanceDecision& decision, const comm
   controller_.lookAt(point_map_m, control::FlightController::Looks::kForReactive);
 }
 
-/// What it looked for is not seen any more either.
 void RetreatFlight::end() {
   if (!active()) return;
   controller_.hold();

@@ -22,11 +22,18 @@ constexpr double kBehind_m = 0.55;
 /// Far more than the people of one flight.
 constexpr std::size_t kMostPeople = 64;
 
-bool anythingIn(const planning::CostMap& map, const common::Disc& disc) {
+/// The cells of the square around a disc.
+template <typename Grid>
+CellRect squareAround(const Grid& grid, const common::Disc& disc) {
   const Eigen::Vector2d corner = Eigen::Vector2d::Constant(disc.radius_m);
-  const CellIndex low = map.cellAt(disc.center_map_m - corner), high = map.cellAt(disc.center_map_m + corner);
-  for (int y = low.y; y <= high.y; ++y)
-    for (int x = low.x; x <= high.x; ++x)
+  const CellIndex last = grid.cellAt(disc.center_map_m + corner);
+  return {grid.cellAt(disc.center_map_m - corner), {last.x + 1, last.y + 1}};
+}
+
+bool anythingIn(const planning::CostMap& map, const common::Disc& disc) {
+  const CellRect cells = squareAround(map, disc);
+  for (int y = cells.begin.y; y < cells.end.y; ++y)
+    for (int x = cells.begin.x; x < cells.end.x; ++x)
       if (disc.covers(map.centerOf({x, y})) && map.states().at({x, y}) == CellState::kOccupied) return true;
   return false;
 }
@@ -133,10 +140,9 @@ common::OccupancyGrid gridWithout(std::span<const MayGo> things, const common::O
   without = without.snapshot();
   for (const MayGo& thing : things) {
     const common::Disc shadow{thing.disc.center_map_m, thing.disc.radius_m + kBehind_m};
-    const Eigen::Vector2d corner = Eigen::Vector2d::Constant(shadow.radius_m);
-    const CellIndex low = grid.cellAt(shadow.center_map_m - corner), high = grid.cellAt(shadow.center_map_m + corner);
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) {
+    const CellRect cells = squareAround(grid, shadow);
+    for (int y = cells.begin.y; y < cells.end.y; ++y)
+      for (int x = cells.begin.x; x < cells.end.x; ++x) {
         const bool unknown = common::occupancy::isUnknown(grid.at({x, y}));
         const common::Disc& goes = unknown ? shadow : thing.disc;
         if (goes.covers(grid.centerOf({x, y})) && !common::occupancy::isFree(grid.at({x, y})))

@@ -1,8 +1,7 @@
 // What blocks a path today and may be gone tomorrow: people, and what came to where the vehicle flew before. A map
 // without it tells a way that is blocked for a time from one that is walled.
 //
-//   grid, people, trail --> things that may go --> the grid as if they had gone --> a path only there: blocked for a
-//   time
+//   grid, people, trail --> things that may go --> the grid without them --> a path only there: blocked for a time
 #pragma once
 
 #include <span>

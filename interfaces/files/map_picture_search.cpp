@@ -15,6 +15,7 @@
 #include "common/read_bytes.hpp"
 #include "interfaces/files/map_picture.hpp"
 #include "interfaces/files/text_file.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -73,7 +74,7 @@ FoundPicture findPicture(const fs::path& yaml_file, const std::string& named, co
   std::error_code failure, ignored;
   if (fs::exists(there, failure)) return {there, {}};
   if (fs::exists(meant, ignored)) return {meant, {}};
-  for (const char* packed : {".gz", ".bz2", ".xz"})
+  for (const char* packed : kPackedEndings)
     if (const fs::path file = there.string() + packed; !named.empty() && fs::is_regular_file(file, ignored))
       return {file, {}};
   for (const fs::path& link : {there, meant, folder / name})

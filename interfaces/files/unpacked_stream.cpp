@@ -216,7 +216,7 @@ std::string UnpackedStream::archiveError() const {
 std::int64_t UnpackedStream::packedBytesRead() const { return feed_->packed_bytes; }
 
 std::filesystem::path unpackedName(const std::filesystem::path& file) {
-  for (const char* packed : {".gz", ".bz2", ".xz"})
+  for (const char* packed : kPackedEndings)
     if (common::endingOf(file) == packed) return file.parent_path() / file.stem();
   return file;
 }

@@ -3,6 +3,7 @@
 // comes as UTF-8.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -55,6 +56,8 @@ class UnpackedStream {
   bool at_end_ = false;
 };
 
+/// Endings of compressed files.
+inline constexpr std::array kPackedEndings{".gz", ".bz2", ".xz"};
 /// The name of a file without the ending of its compression: "map.bt.gz" -> "map.bt".
 std::filesystem::path unpackedName(const std::filesystem::path& file);
 

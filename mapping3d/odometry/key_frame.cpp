@@ -21,13 +21,9 @@ std::shared_ptr<const KeyFrame> makeKeyFrame(common::Time stamp, const FramePyra
 
 std::vector<DescribedPoint> describedPoints(const vision::GrayImage& gray,
                                             const std::vector<vision::Feature>& features) {
-  std::vector<Eigen::Vector2d> pixels;
-  pixels.reserve(features.size());
-  for (const vision::Feature& feature : features) pixels.push_back(feature.pixel);
-  const auto descriptors = vision::describePatches(gray, pixels);
   std::vector<DescribedPoint> points;
-  for (std::size_t i = 0; i < features.size(); ++i)
-    if (descriptors[i]) points.push_back({features[i].mean_camera_m, *descriptors[i]});
+  for (const vision::DescribedPatch& patch : vision::describedPatches(gray, features))
+    points.push_back({features[patch.index].mean_camera_m, patch.descriptor});
   return points;
 }
 

@@ -10,7 +10,7 @@
 // in halved sizes; histograms begin at their most frequent orientation, since a landing zone is seen from every
 // heading; classes are formed greedily; the classifier is naive and Gaussian; classified corners vote
 // for place, turn and size of the pattern, and the similarity transform on which most of them agree is found by RANSAC
-// with a random stream that begins anew for each picture; the pose is fitted to these corners. Measured beside
+// with a random stream that is reset for each picture; the pose is fitted to these corners. Measured beside
 // PatternRecognizer in docs/recognition.md.
 #pragma once
 

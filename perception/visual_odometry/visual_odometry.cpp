@@ -59,12 +59,8 @@ VisualOdometry::Seen VisualOdometry::look(const common::RgbdFrame& frame, Messag
   Seen seen{frame.stamps.measured, {}, {}};
   const vision::GrayImage gray = vision::grayOf(frame.color);
   const auto features = vision::findFeatures(gray, frame.depth, frame.camera, features_);
-  std::vector<Eigen::Vector2d> pixels;
-  for (const vision::Feature& feature : features) pixels.push_back(feature.pixel);
-  const auto descriptors = vision::describePatches(gray, pixels);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (!descriptors[i]) continue;
-    seen.described.push_back({features[i].mean_camera_m, *descriptors[i]});
+  for (const auto& [i, descriptor] : vision::describedPatches(gray, features)) {
+    seen.described.push_back({features[i].mean_camera_m, descriptor});
     seen.points.push_back({features[i].mean_camera_m, features[i].covariance_camera_m2});
   }
   if (static_cast<int>(seen.points.size()) >= kLeastPairs) return seen;

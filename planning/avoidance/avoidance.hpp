@@ -70,13 +70,13 @@ struct Bin {
 
 /// Keeps the hysteresis and the last decision. One thread; call once a scan.
 ///
-///           danger: unmapped and near, or on a course to hit          gone for 0.6 s
+///           danger: unmapped and near, or a person may be met         gone for 0.6 s
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
-/// hull, or a moving one would come within `contact_gap_m` of the vehicle at rest within 1.8 s. For mapped,
-/// static obstacles it only brakes, unless it flies at them too fast to stop, which no intent requests: it does so
-/// where its position is corrected, or a gust pushes it. All distances are from the hull.
+/// hull, or when leaving lowers the probability of meeting a person (ContactRisk). For mapped, static obstacles it only
+/// brakes, unless it flies at them too fast to stop, which no intent requests: it does so where its position is
+/// corrected, or a gust pushes it. All distances are from the hull.
 class Avoidance {
  public:
   using Config = AvoidanceConfig;

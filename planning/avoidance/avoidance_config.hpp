@@ -36,7 +36,7 @@ struct AvoidanceConfig {
   static constexpr double blind_speed_m_s = 0.3;
   /// Something moving that passes nearer than this to the hull counts as arriving.
   static constexpr double contact_gap_m = 0.20;
-  /// Greatest speed of a retreat (docs/decisions/avoidance.md#009).
+  /// Greatest speed of a retreat by the rules of the papers (docs/decisions/avoidance.md#009).
   static constexpr double retreat_speed_m_s = 0.7;
   /// Distance between hull and obstacle when a retreat has ended.
   static constexpr double retreat_margin_m = 0.15;

@@ -20,7 +20,7 @@ constexpr double kJustSeen = 0.25;
 /// Within the outermost beams people are lost as the vehicle turns and tilts.
 constexpr double kMargin_rad = 20.0 * common::kRadPerDeg;
 /// A person 1 m away, and the course, each with what it costs by the radian outside, in units of a direction that is
-/// wholly open and forgotten: whoever is known and near is never given up for what may be.
+/// wholly open and forgotten: a person who is known and near counts more than all of these.
 constexpr double kPerson = 40.0, kCourse = 6.0;
 constexpr double kOutside = 0.5;
 /// Share of that cost for each 15 deg of a turn, a quarter of a second, during which a person is not seen.

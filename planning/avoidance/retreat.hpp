@@ -56,8 +56,8 @@ struct RetreatChoice {
   double contact = 0.0;  ///< Probability that a person is met on it.
 };
 
-/// The velocity to fly until the next scan, in the level frame; zero if stopping is best. If it is flown with the
-/// `deceleration_m_s2` of the configuration and computed again at each scan, the hull comes no nearer to a static
+/// The velocity to fly until the next scan, in the level frame; zero if stopping is best. If it is flown with
+/// kRetreatAcceleration_m_s2 and computed again at each scan, the hull comes no nearer to a static
 /// obstacle than `retreat_margin_m`, or than it would by stopping at once. A pure function.
 RetreatChoice retreatChoice(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input);
 
