@@ -79,12 +79,10 @@ void stampLate(KnownScans& scans) {
 }  // namespace
 
 const std::vector<LogVariation>& logVariations() {
-  static const std::vector<LogVariation> variations{{"growing stamps", asTheyAre},
-                                                    {"from the 38th scan on", startLater},
-                                                    {"without every 20th scan", loseSome},
-                                                    {"every second scan", keepEverySecond},
-                                                    {"1 cm of noise more", addNoise},
-                                                    {"stamped up to 0.35 s late", stampLate}};
+  static const std::vector<LogVariation> variations{
+      {"growing stamps", asTheyAre},         {"from the 38th scan on", startLater},
+      {"without every 20th scan", loseSome}, {"every second scan", keepEverySecond},
+      {"1 cm of noise more", addNoise},      {"stamped up to 0.35 s late", stampLate}};
   return variations;
 }
 
