@@ -36,7 +36,7 @@ struct SpacePlanFailure {
 
 struct SamplingEffort {
   int iterations = 20000;  ///< Of RRT-Connect, before the reachable space is asked.
-  bool simplify = true;   ///< Otherwise the path is the first that was found.
+  bool simplify = true;    ///< Otherwise the path is the first that was found.
 };
 
 /// The path depends on the arguments only: it ends by iterations and draws from streams of its own, so that it is the
