@@ -26,5 +26,6 @@ void addPapers(Command& program);
 void addTune(Command& program);
 void addConsistency(Command& program);
 void addWorld(Command& program);
+void addPlan(Command& program);
 
 }  // namespace swiftlet::apps

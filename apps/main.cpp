@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   apps::addTune(top);
   apps::addConsistency(top);
   apps::addWorld(top);
+  apps::addPlan(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

@@ -12,6 +12,7 @@
 #include "apps/cloud_unit.hpp"
 #include "apps/command.hpp"
 #include "apps/listed_numbers.hpp"
+#include "apps/map_kind.hpp"
 #include "apps/output_file.hpp"
 #include "apps/show.hpp"
 #include "apps/start_option.hpp"
@@ -19,8 +20,8 @@
 #include "common/error.hpp"
 #include "common/lower_case.hpp"
 #include "interfaces/clouds/point_cloud.hpp"
-#include "interfaces/files/map_picture.hpp"
 #include "interfaces/files/map_server.hpp"
+#include "interfaces/files/movingai.hpp"
 #include "interfaces/files/octomap.hpp"
 #include "interfaces/files/unpacked_stream.hpp"
 #include "mapping3d/voxels/floor_growth.hpp"
@@ -41,10 +42,10 @@ using mapping3d::StandingPlace;
 
 /// Of the walls of a floor plan: a usual room's.
 constexpr double kUsualHeight_m = 2.5;
+/// Of the cells of a grid without metres: its narrowest passage, one cell, is then wide enough for the hull.
+constexpr double kUsualCell_m = 1.0;
 /// Rectangles of a world: a gigabyte of mesh.
 constexpr std::size_t kMostFaces = 10'000'000;
-/// Finer voxels than those of the maps that flights leave add nothing.
-constexpr double kFinestVoxel_m = 0.05;
 
 struct WorldOptions {
   std::string from;
@@ -56,36 +57,21 @@ struct WorldOptions {
   std::optional<double> scale;
 };
 
-enum class MapKind { kFloorPlan, kOctree, kCloud };
-
 void tell(const std::string& text) { show(text + "\n"); }
 
 [[noreturn]] void refuseMap(const WorldOptions& options, const Message& message, const std::string& hint = "") {
   throw InputError({options.from}, "", message, hint);
 }
 
-/// By the ending, in any case.
-MapKind mapKindOf(const WorldOptions& options) {
-  const fs::path file = interfaces::unpackedName(options.from);
-  const std::string ending = common::endingOf(file);
-  if (ending == ".yaml" || ending == ".yml" || interfaces::isPicture(options.from)) return MapKind::kFloorPlan;
-  if (ending == ".bt" || ending == ".ot") return MapKind::kOctree;
-  if (interfaces::cloudFormatOf(file)) return MapKind::kCloud;
-  refuseMap(options, Message("world.other-kind", "`{}` is not a kind of map", file.extension().string()),
-            ending == ".map" || ending == ".3dmap"
-                ? "a grid without metres: save it as a picture with a .yaml that has its resolution"
-                : "a floor plan is a .yaml as map_server reads it, an octree a .bt or .ot, a cloud a .ply or .pcd");
-}
-
 void refuseOption(const std::string& option, const Message& message) { throw InputError({}, option, message); }
 
 void checkOptions(const WorldOptions& options, MapKind kind) {
-  if (options.resolution_m && kind != MapKind::kCloud)
+  if (options.resolution_m && kind != MapKind::kCloud && kind != MapKind::kGrid)
     refuseOption("--resolution",
-                 Message("world.has-resolution", "this map has its own; only that of a cloud is chosen"));
+                 Message("world.has-resolution", "this map has its own; only that of a cloud or a grid is chosen"));
   if (options.scale && kind != MapKind::kCloud)
     refuseOption("--scale", Message("world.in-metres", "this map is in metres; only a cloud may be in another unit"));
-  if (options.floor_m && kind == MapKind::kFloorPlan)
+  if (options.floor_m && (kind == MapKind::kFloorPlan || kind == MapKind::kGrid))
     refuseOption("--floor", Message("world.floor-of-plan", "the floor of a floor plan is at 0"));
 }
 
@@ -137,11 +123,13 @@ class WorldMaker {
   }
 
   void make() {
-    building_.kind = mapKindOf(options_);
+    building_.kind = mapKindOf(options_.from);
     checkOptions(options_, building_.kind);
     requireNew(out());
     if (building_.kind == MapKind::kFloorPlan)
       readPlan();
+    else if (building_.kind == MapKind::kGrid)
+      readGrid();
     else if (building_.kind == MapKind::kOctree)
       readTree();
     else
@@ -167,9 +155,19 @@ class WorldMaker {
     const interfaces::StoredMap map = interfaces::readMap(options_.from);
     showNotes(map.notes);
     building_.T_world_map = map.T_map_grid;
-    if (knownExtent(map.grid).empty()) refuseMap(options_, Message("world.nothing-known", "nothing in it is known"));
+    raiseWalls(map.grid);
+  }
+
+  void readGrid() {
+    const double cell_m = options_.resolution_m.value_or(kUsualCell_m);
+    if (!options_.resolution_m) tell(fmt::format("assumed: cells of {:g} m (--resolution)", cell_m));
+    raiseWalls(interfaces::readOctileMap(options_.from, cell_m).grid);
+  }
+
+  void raiseWalls(const common::OccupancyGrid& plan) {
+    if (knownExtent(plan).empty()) refuseMap(options_, Message("world.nothing-known", "nothing in it is known"));
     const double height_m = options_.height_m.value_or(kUsualHeight_m);
-    building_.space = mapping3d::freeSpaceOf(map.grid, height_m);
+    building_.space = mapping3d::freeSpaceOf(plan, height_m);
     const Eigen::Vector3d& cell_m = building_.space.voxel_m;
     tell(fmt::format("floor plan: {:.1f} m2 free, in cells of {:g} m; what is unknown is wall",
                      freeCells() * cell_m.x() * cell_m.y(), cell_m.x()));
@@ -220,10 +218,7 @@ class WorldMaker {
           Message("world.too-fine", "voxels of {:g} m are smaller than the distance of the points, {:.3f} m",
                   *options_.resolution_m, spacing_m),
           "its surfaces would have holes");
-    // Wider than the distance, so that each voxel of a wall has a point; in whole centimetres, so that it can be said.
-    constexpr double kWider = 1.2;
-    const double chosen_m = std::max(kFinestVoxel_m, std::ceil(kWider * spacing_m * 100.0 - 0.1) / 100.0);
-    const double voxel_m = options_.resolution_m.value_or(chosen_m);
+    const double voxel_m = options_.resolution_m.value_or(mapping3d::voxelSideOf_m(spacing_m));
     tell(fmt::format("cloud: {} points, {:.3f} m apart, in voxels of {:g} m{}", cloud.points.size(), spacing_m, voxel_m,
                      options_.resolution_m ? "" : " (--resolution)"));
     closeAround(cloud.points, voxel_m);
@@ -355,9 +350,10 @@ class WorldMaker {
 void addWorld(Command& program) {
   auto options = std::make_shared<WorldOptions>();
   Command command = program.command("world", "Make a world to fly in from a floor plan, an octree or a cloud.");
-  command.argument("from", options->from,
-                   "Floor plan as map_server reads it (.yaml), octree of OctoMap (.bt, .ot) or cloud of points (.ply, "
-                   ".pcd), the last two also packed by gzip, bzip2 or xz.");
+  command.argument(
+      "from", options->from,
+      "Floor plan as map_server reads it (.yaml), octree of OctoMap (.bt, .ot), cloud of points (.ply, .pcd) "
+      "or grid of the Moving AI benchmarks (.map), the last three also packed by gzip, bzip2 or xz.");
   command.option(
       "--out", options->out,
       "The world, .sdf; its mesh .stl is beside it. Named after the map when not given, in the working folder.");
@@ -369,9 +365,9 @@ void addWorld(Command& program) {
                  "Of the walls of a floor plan, 2.5 when not given; else a ceiling above the floor, in metres.");
   command.option("--floor", options->floor_m, {-1e4, 1e4},
                  "Height of a floor in an octree or a cloud; nothing below it counts. When not given, it is found.");
-  command.option("--resolution", options->resolution_m, {0.01, 1.0},
-                 "Side of the voxels that a cloud becomes, in metres. Chosen from the distance of its points when not "
-                 "given.");
+  command.option("--resolution", options->resolution_m, {0.01, 2.0},
+                 "Side of the voxels that a cloud becomes, in metres, chosen from the distance of its points when not "
+                 "given; of the cells of a grid, 1 when not given.");
   command.option("--scale", options->scale, {1e-6, 1e6},
                  "Metres in one unit of a cloud's coordinates: 0.001 if they are in millimetres. 1 when not given.");
   command.footer("Example: swiftlet world plan.yaml --out hall.sdf --start \"1.5;2;90\"");

@@ -45,6 +45,14 @@ function(swiftlet_link_apriltag name)
   target_include_directories(swiftlet_${name} SYSTEM PRIVATE "${SWIFTLET_APRILTAG_HEADERS}")
 endfunction()
 
+# swiftlet_link_ompl(TARGET)
+#   Links OMPL in the sources. What Debian installs for pkg-config names libraries that it does not install with it.
+function(swiftlet_link_ompl target)
+  find_path(SWIFTLET_OMPL_HEADERS ompl/geometric/planners/rrt/RRTConnect.h PATH_SUFFIXES ompl-1.5 REQUIRED)
+  target_link_libraries(${target} PRIVATE ompl)
+  target_include_directories(${target} SYSTEM PRIVATE "${SWIFTLET_OMPL_HEADERS}")
+endfunction()
+
 # swiftlet_rooms(NAME ROOM...)
 #   The interface target swiftlet_NAME, alias swiftlet::NAME, over the libraries of the rooms of a folder.
 function(swiftlet_rooms name)

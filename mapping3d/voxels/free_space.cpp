@@ -228,6 +228,11 @@ double spacingOf_m(const std::vector<common::SurfacePoint>& points, double farth
   return static_cast<double>(*at);
 }
 
+double voxelSideOf_m(double spacing_m) {
+  constexpr double kFinest_m = 0.05, kWider = 1.2;
+  return std::max(kFinest_m, std::ceil(kWider * spacing_m * 100.0 - 0.1) / 100.0);
+}
+
 SpaceExtent extentOf(const std::vector<common::SurfacePoint>& points, double voxel_m, int margin) {
   if (points.empty()) return {};
   Eigen::Vector3f low = points.front().position_m, high = low;

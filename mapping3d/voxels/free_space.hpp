@@ -51,6 +51,10 @@ FreeSpace freeSpaceOf(const common::VoxelMap& map);
 /// that is its spacing. Of 2,000 points, evenly drawn; `farthest_m` where that many neighbours are not within it.
 double spacingOf_m(const std::vector<common::SurfacePoint>& points, double farthest_m);
 
+/// For points that far apart, by spacingOf_m: wider, so that each voxel of a wall has a point, in whole centimetres, so
+/// that it can be said, and no finer than the maps that flights leave.
+double voxelSideOf_m(double spacing_m);
+
 /// Of the voxels around points, with `margin` more on each side. The points must be finite.
 SpaceExtent extentOf(const std::vector<common::SurfacePoint>& points, double voxel_m, int margin);
 /// All is free where no point is, which includes what is behind the surfaces. The extent must have at most

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/config_fields.hpp"
-#include "planning/costs/distance_transform.hpp"
 
 namespace swiftlet::planning {
 namespace {
@@ -15,9 +14,11 @@ using common::OccupancyGrid;
 
 /// Distance beyond the clearance at which an obstacle no longer raises the cost.
 constexpr double kComfortDistance_m = 0.60;
+/// Greatest reach, which bounds the memory of very fine maps' tables.
+constexpr int kMaxReachCells = 63;
 
 int reachOf(double distance_m, double resolution_m) {
-  return std::clamp(static_cast<int>(std::ceil(distance_m / resolution_m)), 0, kMaxReachCells);
+  return std::clamp(static_cast<int>(std::ceil(distance_m / resolution_m)), 1, kMaxReachCells);
 }
 
 }  // namespace
@@ -31,7 +32,7 @@ CostMap::CostMap(const Config& config, double resolution_m) : config_(config), s
 
 double CostMap::obstacleDistance_m(CellIndex c) const {
   if (!rect().contains(c)) return reach_m();
-  const int squared = occupied_distance2_[static_cast<std::size_t>(indexOf(c))];
+  const int squared = occupied_.squared({c.x - rect().begin.x, 0, c.y - rect().begin.y});
   return std::min(std::sqrt(squared) * resolution_m(), reach_m());
 }
 
@@ -51,10 +52,13 @@ void CostMap::reshape(const Footprint& footprint) {
   reach_cells_ = reachOf(footprint.radius_m() + kComfortDistance_m, resolution_m());
 
   const std::size_t cells = states_.all().size();
-  occupied_distance2_.assign(cells, 0);
-  unknown_distance2_.assign(cells, 0);
-  static_cost_.assign(cells, kLethal);
+  static_cost_.assign(cells, kOpenCost);
   cost_.assign(cells, kLethal);
+  if (cells > 0) {
+    const common::VoxelIndex size{rect().width(), 1, rect().height()};
+    occupied_ = DistanceField(size, reach_cells_);
+    unknown_ = DistanceField(size, reachOf(footprint.hull_radius_m, resolution_m()));
+  }
 
   margin_cost_.resize(static_cast<std::size_t>((reach_cells_ + 1) * (reach_cells_ + 1)) + 1);
   for (std::size_t squared = 0; squared < margin_cost_.size(); ++squared)
@@ -71,33 +75,29 @@ CostMap::Cost CostMap::costOfMargin(double margin_m) const {
 }
 
 void CostMap::updateDistances(const std::vector<CellRect>& changes, bool all) {
-  const int columns = rect().width() / CellStates::kTile, rows = rect().height() / CellStates::kTile;
-  std::vector<bool> dirty(static_cast<std::size_t>(columns) * rows, all);
-  for (const CellRect& change : changes) {
-    const int first_row = std::max(0, change.begin.y - reach_cells_) / CellStates::kTile;
-    const int first_column = std::max(0, change.begin.x - reach_cells_) / CellStates::kTile;
-    for (int row = first_row; row < rows && row * CellStates::kTile < change.end.y + reach_cells_; ++row)
-      for (int column = first_column; column < columns && column * CellStates::kTile < change.end.x + reach_cells_;
-           ++column)
-        dirty[static_cast<std::size_t>(row) * columns + column] = true;
+  if (rect().empty()) return;
+  std::vector<CellBox> boxes;
+  if (all) boxes.push_back({{0, 0, 0}, {rect().width(), 1, rect().height()}});
+  for (const CellRect& change : changes)
+    boxes.push_back({{change.begin.x, 0, change.begin.y}, {change.end.x, 1, change.end.y}});
+  for (const CellState which : {CellState::kOccupied, CellState::kUnknown}) {
+    DistanceField& field = which == CellState::kOccupied ? occupied_ : unknown_;
+    const auto read = [&](common::VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> is) {
+      const auto row = states_.all().begin() + static_cast<std::ptrdiff_t>(first.z) * rect().width() + first.x;
+      std::transform(row, row + is.size(), is.begin(), [which](CellState state) { return state == which; });
+    };
+    for (const CellBox& changed : field.update(boxes, read)) costBox(changed);
   }
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      if (dirty[static_cast<std::size_t>(row) * columns + column])
-        costTile(column * CellStates::kTile, row * CellStates::kTile);
 }
 
-void CostMap::costTile(int x0, int y0) {
-  tileDistances(states_, x0, y0, CellState::kOccupied, reach_cells_, occupied_distance2_);
-  tileDistances(states_, x0, y0, CellState::kUnknown, reachOf(footprint_.hull_radius_m, resolution_m()),
-                unknown_distance2_);
+void CostMap::costBox(const CellBox& box) {
   const double unknown_radius = footprint_.hull_radius_m / resolution_m();
-  for (int y = y0; y < y0 + CellStates::kTile; ++y) {
-    for (int x = x0; x < x0 + CellStates::kTile; ++x) {
+  for (int y = box.begin.z; y < box.end.z; ++y) {
+    for (int x = box.begin.x; x < box.end.x; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * rect().width() + x;
       const bool blind =
-          states_.all()[i] == CellState::kUnknown || unknown_distance2_[i] < unknown_radius * unknown_radius;
-      static_cost_[i] = blind ? kLethal : margin_cost_[static_cast<std::size_t>(occupied_distance2_[i])];
+          states_.all()[i] == CellState::kUnknown || unknown_.squared({x, 0, y}) < unknown_radius * unknown_radius;
+      static_cost_[i] = blind ? kLethal : margin_cost_[static_cast<std::size_t>(occupied_.squared({x, 0, y}))];
     }
   }
 }

@@ -16,7 +16,8 @@
 #include "common/occupancy_grid.hpp"
 #include "common/place_names.hpp"
 #include "common/polygon.hpp"
-#include "planning/costs/cell_states.hpp"
+#include "planning/clearance/cell_states.hpp"
+#include "planning/clearance/distance_field.hpp"
 #include "planning/costs/surface_steps.hpp"
 
 namespace swiftlet::planning {
@@ -67,7 +68,7 @@ class CostMap {
 
   /// Updates the map to the given grid, a snapshot as CellStates::update asks for. Costs are recomputed only around
   /// cells whose state changed since the last call, unless the footprint changed. The result always equals that of a
-  /// fresh map. The reach is radius plus comfort distance, at most kMaxReachCells cells.
+  /// fresh map. The reach is radius plus comfort distance, at most 63 cells.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
   /// How the texts of a failed plan name places.
@@ -109,7 +110,7 @@ class CostMap {
  private:
   void reshape(const Footprint& footprint);
   void updateDistances(const std::vector<common::CellRect>& changes, bool all);
-  void costTile(int x0, int y0);
+  void costBox(const CellBox& box);
   void applyLayers(const CostLayers& layers);
   void closeBorder();
   void applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
@@ -122,9 +123,8 @@ class CostMap {
   Footprint footprint_{-1.0, -1.0};
   common::PlaceNames names_;
   int reach_cells_ = 0;
-  /// Squared distance in cells to the nearest occupied cell, cut at (reach + 1) squared.
-  std::vector<std::int16_t> occupied_distance2_;
-  std::vector<std::int16_t> unknown_distance2_;
+  /// In the plane of x and z, from the first cell of rect() on.
+  DistanceField occupied_, unknown_;
   std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.
   std::vector<Cost> static_cost_;  ///< Cost from the grid only.
   std::vector<Cost> cost_;         ///< Cost with the layers.

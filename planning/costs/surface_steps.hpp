@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/level_map.hpp"
-#include "planning/costs/cell_states.hpp"
+#include "planning/clearance/cell_states.hpp"
 
 namespace swiftlet::planning {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "common/check.hpp"
 #include "planning/search/admission.hpp"
@@ -11,6 +12,13 @@ namespace swiftlet::planning {
 
 tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                 const Eigen::Vector2d& goal_map_m) {
+  const auto plan = planCells(map, start_map_m, goal_map_m);
+  if (!plan) return tl::make_unexpected(plan.error());
+  return shortened(map, plan->cells, plan->escape_cells, start_map_m, goal_map_m);
+}
+
+tl::expected<CellPlan, PlanFailure> DStarLite::planCells(const CostMap& map, const Eigen::Vector2d& start_map_m,
+                                                         const Eigen::Vector2d& goal_map_m) {
   expansions_ = 0;
   tl::expected<CellPath, PlanFailure> chain = admit(map, start_map_m, goal_map_m);
   if (!chain) return tl::make_unexpected(chain.error());
@@ -35,7 +43,7 @@ tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen:
   const std::size_t escape_cells = chain->size() - 1;
   const CellPath rest = follow(map);
   chain->insert(chain->end(), rest.begin() + 1, rest.end());
-  return shortened(map, *chain, escape_cells, start_map_m, goal_map_m);
+  return CellPlan{*std::move(chain), escape_cells};
 }
 
 void DStarLite::restart(const CostMap& map, int goal) {
@@ -167,14 +175,14 @@ DStarLite::Edges DStarLite::edgesOf(std::int32_t index) {
   };
   const bool west = here[-1] != CostMap::kLethal, east = here[1] != CostMap::kLethal;
   const bool south = here[-stride_] != CostMap::kLethal, north = here[stride_] != CostMap::kLethal;
-  if (south && west) add(-stride_ - 1, CostMap::kDiagonalEdge);
-  if (south) add(-stride_, CostMap::kStraightEdge);
-  if (south && east) add(-stride_ + 1, CostMap::kDiagonalEdge);
-  if (west) add(-1, CostMap::kStraightEdge);
-  if (east) add(1, CostMap::kStraightEdge);
-  if (north && west) add(stride_ - 1, CostMap::kDiagonalEdge);
-  if (north) add(stride_, CostMap::kStraightEdge);
-  if (north && east) add(stride_ + 1, CostMap::kDiagonalEdge);
+  if (south && west) add(-stride_ - 1, scale_.diagonal);
+  if (south) add(-stride_, scale_.straight);
+  if (south && east) add(-stride_ + 1, scale_.diagonal);
+  if (west) add(-1, scale_.straight);
+  if (east) add(1, scale_.straight);
+  if (north && west) add(stride_ - 1, scale_.diagonal);
+  if (north) add(stride_, scale_.straight);
+  if (north && east) add(stride_ + 1, scale_.diagonal);
   return result;
 }
 
@@ -187,7 +195,7 @@ std::int32_t DStarLite::bestOverNeighbours(std::int32_t index) {
 std::int32_t DStarLite::heuristic(std::int32_t a, std::int32_t b) const {
   const int dx = std::abs(a % stride_ - b % stride_), dy = std::abs(a / stride_ - b / stride_);
   const int diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
-  return 2 * CostMap::kOpenCost * (CostMap::kDiagonalEdge * diagonal + CostMap::kStraightEdge * straight);
+  return 2 * CostMap::kOpenCost * (scale_.diagonal * diagonal + scale_.straight * straight);
 }
 
 DStarLite::Key DStarLite::keyOf(std::int32_t index, const Vertex& vertex) const {

@@ -9,14 +9,35 @@
 
 namespace swiftlet::planning {
 
+/// The costs of a straight and of a diagonal edge, times the sum of the costs of its two cells.
+struct EdgeScale {
+  std::int32_t straight = CostMap::kStraightEdge;
+  std::int32_t diagonal = CostMap::kDiagonalEdge;
+};
+/// 1393 / 985 is the square root of 2 within 3e-7: paths over cells of equal cost have the least length, where that of
+/// flights is within 0.2 % of it. A path of 68,000 open cells is the longest.
+inline constexpr EdgeScale kOctileScale{985, 1393};
+
+/// A chain of cells from the start to the goal, of which the first are the escape.
+struct CellPlan {
+  CellPath cells;
+  std::size_t escape_cells = 0;
+};
+
 /// Neighbours are 8-connected and no corner is cut. Costs are integers, kept in arrays over the dense rectangle of the
 /// cost map. The search is kept for the same goal cell; another goal, rectangle or resolution starts a new one. Each
 /// call compares the costs with those of the last call, so any map may be given at any time. The cost of a path must
 /// stay below 2^30, which is about 100 km of expensive cells.
 class DStarLite final : public Planner {
  public:
+  explicit DStarLite(EdgeScale scale = {}) : scale_(scale) {}
+
   [[nodiscard]] tl::expected<Path, PlanFailure> plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                      const Eigen::Vector2d& goal_map_m) override;
+
+  /// The same path, as the cells that the search found.
+  [[nodiscard]] tl::expected<CellPlan, PlanFailure> planCells(const CostMap& map, const Eigen::Vector2d& start_map_m,
+                                                              const Eigen::Vector2d& goal_map_m);
 
   const char* name() const override { return "D* Lite"; }
 
@@ -69,6 +90,7 @@ class DStarLite final : public Planner {
   void siftUp(std::size_t place, Entry entry);
   void siftDown(std::size_t place, Entry entry);
 
+  EdgeScale scale_;
   common::CellRect rect_;
   double resolution_m_ = 0.0;
   int stride_ = 0;

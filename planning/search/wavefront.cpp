@@ -34,6 +34,7 @@ void CostField::spread(const CostMap& map, CellIndex source, std::optional<CellI
   cost_[static_cast<std::size_t>(first)] = 0;
   buckets_[0].push_back(first);
   std::size_t waiting = 1;
+  settled_ = 0;
   for (std::int32_t bucket = 0; waiting > 0; ++bucket) {
     std::vector<std::int32_t>& cells = buckets_[static_cast<std::size_t>(bucket) % ring];
     waiting -= cells.size();
@@ -41,6 +42,7 @@ void CostField::spread(const CostMap& map, CellIndex source, std::optional<CellI
       const auto i = static_cast<std::size_t>(cell);
       if (cost_[i] / CostMap::kStraightMin != bucket || (from_[i] & kSettled)) continue;
       from_[i] |= kSettled;
+      ++settled_;
       for (std::size_t d = 0; d < 8; ++d) {
         const auto next = static_cast<std::size_t>(cell + offsets[d]);
         if (cost_[next] <= cost_[i] + CostMap::kStraightMin) continue;

@@ -2,6 +2,7 @@
 // without local minima. Exploration uses these costs as distances.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,8 @@ class CostField {
   bool reached(int index) const { return at(index) != kUnreached; }
   /// The cost of a reached cell in metres of open space.
   double cost_m(int index, double resolution_m) const { return at(index) * (resolution_m / CostMap::kStraightMin); }
+  /// Cells that the last spread settled.
+  std::size_t settled() const { return settled_; }
   /// The cells of the cheapest path from the source to a reached cell.
   CellPath pathTo(const CostMap& map, common::CellIndex target) const;
 
@@ -29,6 +32,7 @@ class CostField {
   std::vector<std::int32_t> cost_;
   std::vector<std::uint8_t> from_;  ///< Direction of the last step to each cell.
   std::vector<std::vector<std::int32_t>> buckets_;
+  std::size_t settled_ = 0;
 };
 
 class Wavefront final : public Planner {
@@ -37,6 +41,8 @@ class Wavefront final : public Planner {
                                                      const Eigen::Vector2d& goal_map_m) override;
   const char* name() const override { return "wavefront"; }
   std::int32_t searchCost() const { return search_cost_; }
+  /// Cells that the last search settled.
+  std::size_t settled() const { return field_.settled(); }
 
  private:
   CostField field_;

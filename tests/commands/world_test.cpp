@@ -122,6 +122,15 @@ TEST_F(World, OfATurnedFloorPlanIsTurned) {
   expectDistances({2.1, 1.9, 1.0, 2.0}, 1e-3);
 }
 
+TEST_F(World, OfAGridHasCellsOfTheSizeThatIsGiven) {
+  const std::string grid =
+      write("hall.map", "type octile\nheight 5\nwidth 6\nmap\n@@@@@@\n@....@\n@..S.@\n@..G.@\n@@TWO@\n");
+  const ProgramEnd end = make(grid, {"--start", "2.5;2.5", "--resolution", "1"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("floor plan: 12.0 m2 free, in cells of 1 m"));
+  expectDistances({2.5, 1.5, 1.0, 1.5}, 1e-5);
+}
+
 TEST_F(World, OfAnOctreeHasItsFloorAndCeiling) {
   const ProgramEnd end = make(tree(true), {"--start", "1;0.5"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
@@ -197,7 +206,8 @@ TEST_F(World, InputThatIsNoBuildingIsRefused) {
   expectRefused(make(plan(), {"--resolution", "0.05"}), "--resolution: this map has its own");
   expectRefused(make(plan(), {"--floor", "0.05"}), "--floor: the floor of a floor plan is at 0");
   expectRefused(make(tree(true), {"--scale", "0.05"}), "--scale: this map is in metres");
-  expectRefused(make(write("arena.map", "type octile\n")), "is not a kind of map, a grid without metres");
+  expectRefused(make(write("arena.map", "type octile\n")), "width or height is missing");
+  expectRefused(make(write("arena.3dmap", "voxel 1 1 1\n")), "is not a kind of map");
   expectRefused(make(path("room.pgm")), "is the picture of a map");
   common::VoxelMap far(0.01);
   for (const int place : {0, 30'000}) far.set({place, place, place}, 70);

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "grid_builder.hpp"
-#include "planning/costs/cell_states.hpp"
+#include "planning/clearance/cell_states.hpp"
 
 namespace swiftlet::planning {
 namespace {

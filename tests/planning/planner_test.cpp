@@ -5,7 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <functional>
 #include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
 
 #include "dijkstra.hpp"
 #include "grid_builder.hpp"
@@ -91,6 +96,54 @@ TEST(Planner, TheOracleCatchesAPlanThatWasNotRepaired) {
   int caught = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) caught += !firstDifference(seed, true).empty();
   EXPECT_GE(caught, 8);
+}
+
+/// The least length of a path over cells that are free, in cells, by a search that shares no code with the planners.
+double octileDistance(const CostMap& map, int source, int target) {
+  std::vector<double> least(map.costs().size(), 1e18);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  least[static_cast<std::size_t>(source)] = 0.0;
+  open.push({0.0, source});
+  while (!open.empty()) {
+    const auto [length, at] = open.top();
+    open.pop();
+    if (at == target) return length;
+    const CellIndex cell = map.cellOf(at);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto lethal = [&](int x, int y) { return map.costAt({cell.x + x, cell.y + y}) == CostMap::kLethal; };
+        if (lethal(dx, dy) || lethal(dx, 0) || lethal(0, dy)) continue;
+        const double there = length + std::sqrt(dx * dx + dy * dy);
+        double& known = least[static_cast<std::size_t>(map.indexOf({cell.x + dx, cell.y + dy}))];
+        if (there > known - 1e-12) continue;
+        known = there;
+        open.push({there, map.indexOf({cell.x + dx, cell.y + dy})});
+      }
+  }
+  return -1.0;
+}
+
+RC_GTEST_PROP(DStarLite, WithOctileCostsHasTheLeastLength, (std::uint64_t seed)) {
+  common::RandomStream random(seed, "octile");
+  common::OccupancyGrid grid = test::room(150, 110, 1.0);
+  test::clutter(grid, {{0, 0}, {150, 110}}, 120, random);
+  CostMap::Config plain;
+  plain.comfort_weight = 0.0;
+  const CostMap map = test::mapOf(grid, {0.1, 0.0}, plain);
+  DStarLite planner(kOctileScale);
+  for (int i = 0; i < 5; ++i) {
+    const auto start = randomFree(map, random), goal = randomFree(map, random);
+    if (!start || !goal || escapeFrom(map, *start)->size() > 1) continue;
+    const double truth = octileDistance(map, map.indexOf(*start), map.indexOf(*goal));
+    const auto plan = planner.planCells(map, map.centerOf(*start), map.centerOf(*goal));
+    RC_ASSERT(plan.has_value() == (truth >= 0.0));
+    if (!plan) continue;
+    double length = 0.0;
+    for (std::size_t c = 1; c < plan->cells.size(); ++c)
+      length += (map.centerOf(plan->cells[c]) - map.centerOf(plan->cells[c - 1])).norm();
+    RC_ASSERT(std::abs(length - truth) < 1e-6);
+  }
 }
 
 TEST(Planner, APathStartsAndEndsExactlyAndKeepsItsClearance) {

@@ -1,4 +1,4 @@
-#include "planning/costs/cell_states.hpp"
+#include "planning/clearance/cell_states.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// The states of a grid's cells, as the cost map reads them: a dense array in which unknown slivers are closed.
+// The states of a grid's cells, as clearance and costs read them: a dense array in which unknown slivers are closed.
 #pragma once
 
 #include <cstddef>
