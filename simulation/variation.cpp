@@ -159,7 +159,8 @@ std::optional<Footing> footingOf(const Scenario& scenario, const RayCaster& rays
   Eigen::Vector2d rise_m2(0.0, 0.0);
   for (int foot = 0; foot < 5; ++foot) {
     const double angle_rad = start.yaw_deg * kRadPerDeg + (0.25 + 0.5 * foot) * std::numbers::pi;
-    const Eigen::Vector2d aside_m = (foot < 4 ? gear_m : 0.0) * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector2d aside_m =
+        (foot < 4 ? gear_m : 0.0) * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
     const Eigen::Vector3d from(start.x_m + aside_m.x(), start.y_m + aside_m.y(), start.z_m + kSearchFloorFrom_m);
     const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
     if (!hit) return std::nullopt;

@@ -15,7 +15,8 @@ using common::square;
 
 namespace {
 
-/// Random walk of the accelerometer's bias while it jumps: by 1.0 m/s2 within a second (docs/decisions/altitude.md#112).
+/// Random walk of the accelerometer's bias while it jumps: by 1.0 m/s2 within a second
+/// (docs/decisions/altitude.md#112).
 constexpr double kRestlessWalk_m_s3_rthz = 1.0;
 
 }  // namespace
@@ -59,7 +60,8 @@ void GroundHypothesis::predict(double dt_s, const InertialClimb& climb, bool at_
   covariance_(kHeight, kHeight) += noise * square(dt_s) / 3.0;
   covariance_(kHeight, kVelocity) += 0.5 * noise * dt_s;
   covariance_(kVelocity, kHeight) += 0.5 * noise * dt_s;
-  covariance_(kBias, kBias) += square(restless ? kRestlessWalk_m_s3_rthz : FusionConfig().accelerometer_bias_walk_m_s3_rthz) * dt_s;
+  covariance_(kBias, kBias) +=
+      square(restless ? kRestlessWalk_m_s3_rthz : FusionConfig().accelerometer_bias_walk_m_s3_rthz) * dt_s;
   if (at_rest) update(Row::Unit(kVelocity), 0.0, square(FusionConfig::zero_velocity_sigma_m_s));
 }
 

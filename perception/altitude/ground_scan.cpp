@@ -12,8 +12,8 @@ std::vector<SurfaceSight> surfacesBelow(std::span<const GroundPoint> points, con
   std::vector<const GroundPoint*> beams;
   beams.reserve(points.size());
   for (const GroundPoint& point : points) {
-    const bool usable = point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) &&
-                        point.distance_below_m > 0.0;
+    const bool usable =
+        point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) && point.distance_below_m > 0.0;
     if (usable) beams.push_back(&point);
   }
   const auto key = [](const GroundPoint* beam) {

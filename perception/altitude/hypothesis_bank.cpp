@@ -16,17 +16,19 @@ namespace {
 
 // How often what is below changes: orders of magnitude of furnished rooms, which were chosen on the flights of
 // tests/altitude (docs/decisions/altitude.md#112).
-constexpr double kEdges_1_m = 0.5;    ///< Surfaces and slopes end so often along the path,
-constexpr double kSlopes_1_m = 0.05;  ///< and slopes begin.
-constexpr double kSway_m = 0.001;     ///< The beams wander by this between two scans though the vehicle hovers.
-constexpr double kRestless_1_s = 0.002, kCalm_1_s = 2.0;  ///< The bias changes fast, and stops doing so.
+constexpr double kEdges_1_m = 0.5;    ///< Rate along the path at which surfaces and slopes end.
+constexpr double kSlopes_1_m = 0.05;  ///< Rate along the path at which slopes begin.
+constexpr double kSway_m = 0.001;     ///< The beams wander by this between two scans while the vehicle hovers.
+constexpr double kRestless_1_s = 0.002, kCalm_1_s = 2.0;  ///< Rates at which the bias begins and ends to change fast.
+/// Probability that an unknown surface lies below the take-off floor: holes are rare.
+constexpr double kBelowFloor = 1e-3;
 
-constexpr double kBelowFloor = 1e-3;  ///< Share of what is unknown: hardly anything lies below the take-off floor.
-
-constexpr std::size_t kMost = 30;      ///< Hypotheses, bounded for speed.
-constexpr double kNegligible = -14.0;  ///< Logarithm of a weight, against the best, that is given up,
-constexpr double kGate2 = -2.0 * kNegligible;  ///< and the squared Mahalanobis distance that makes it so small.
-/// Two estimates are alike if they differ by less than this share of their standard deviations, as these do.
+constexpr std::size_t kMost = 30;  ///< Number of hypotheses, bounded for speed.
+/// Logarithm of the weight, against the best, below which a hypothesis is given up.
+constexpr double kNegligible = -14.0;
+/// Squared Mahalanobis distance at which a likelihood is that small.
+constexpr double kGate2 = -2.0 * kNegligible;
+/// Two estimates are alike if they, and their standard deviations, differ by less than this share of the latter.
 constexpr double kAlike = 0.5;
 
 double weightOf(const GroundHypothesis& h) { return std::exp(h.log_weight); }
@@ -141,8 +143,8 @@ bool HypothesisBank::mayBe(int level, bool small) const {
   return !small || levels_.isSame(level, kFloor) || levels_.coversAround(level, center_);
 }
 
-/// Density of the height of a surface that is no known level, where each of these has the probability 1: any between the
-/// floor and the vehicle.
+/// Density of the height of a surface that is no known level, where each of these has the probability 1: any between
+/// the floor and the vehicle.
 double HypothesisBank::unknownDensity_1_m(double vehicle_m, double height_m) const {
   return (config_.one_floor && height_m < 0.0 ? kBelowFloor : 1.0) / std::max(vehicle_m, kFlatness_m);
 }

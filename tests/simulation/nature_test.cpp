@@ -246,8 +246,8 @@ TEST(Nature, AMarkOfTheByteOrderAndCommentsInRangesAreNoMistakes) {
 
 TEST(Nature, BasedOnAnotherDrawsWhatThatDrawsAndItsOwn) {
   const TemporaryFolder folder("nature_draughts");
-  const Nature real = shipped("real"), draughty = Nature::load(folder.write(
-                                           "draughts.yaml", "based_on: real\nwind: {gust_m_s: [0.4, 0.8]}\n"));
+  const Nature real = shipped("real"),
+               draughty = Nature::load(folder.write("draughts.yaml", "based_on: real\nwind: {gust_m_s: [0.4, 0.8]}\n"));
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Scenario drawn = draughty.drawn({}, seed);
     EXPECT_THAT(drawn.wind.gust_m_s, AllOf(Ge(0.4), Le(0.8)));

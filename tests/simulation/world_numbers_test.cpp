@@ -113,8 +113,7 @@ TEST_F(WorldNumbers, AStartOnASlopeIsTakenIfNothingStandsOnIt) {
     start.yaw_deg = yaw_deg;
     EXPECT_THAT(refusalOf(slope, start), IsEmpty()) << yaw_deg;
     EXPECT_THAT(refusalOf(slope, start, kPelican_m), IsEmpty()) << yaw_deg;
-    EXPECT_THAT(refusalOf(slope + post, start, kPelican_m), HasProblem("start.in-obstacle", "", "`post/l`"))
-        << yaw_deg;
+    EXPECT_THAT(refusalOf(slope + post, start, kPelican_m), HasProblem("start.in-obstacle", "", "`post/l`")) << yaw_deg;
   }
 }
 
