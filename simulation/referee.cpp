@@ -100,6 +100,8 @@ void Referee::judgeWorld(common::Time now, const QuadrotorState& state, const st
   clearance_ = rays_.sweep(hull_, last_position_world_m_, state.T_world_body.position_m, Truth::kClearanceLimit_m);
   if (!state.standing) truth.min_clearance_m = std::min(truth.min_clearance_m, clearance_.distance_m);
   if (clearance_.shape == Hit::kNothing || clearance_.distance_m > 0.0) return;
+  // A gear on a slope tilts the hull along.
+  if (state.standing && clearance_.shape == floor_shape_) return;
   const auto shape = static_cast<std::size_t>(clearance_.shape);
   const std::string name = nameOf(world_.shapes[shape]);
   if (!truth.crashed) {

@@ -145,24 +145,53 @@ double flightHeight_m(const Scenario& scenario) {
   return std::min(scenario.variation.flight_height_m, scenario.vehicle.max_height_m);
 }
 
+/// The ground below the feet of a standing vehicle.
+struct Footing {
+  double lowest_world_m = INFINITY, highest_world_m = -INFINITY;
+  double gradient = 0.0;  ///< Rise over run of the plane through the four feet.
+};
+
+/// nullopt without a floor below each foot and the middle.
+std::optional<Footing> footingOf(const Scenario& scenario, const RayCaster& rays) {
+  const StartConfig& start = scenario.start;
+  const double gear_m = scenario.quadrotor.gear_radius_m;
+  Footing footing;
+  Eigen::Vector2d rise_m2(0.0, 0.0);
+  for (int foot = 0; foot < 5; ++foot) {
+    const double angle_rad = start.yaw_deg * kRadPerDeg + (0.25 + 0.5 * foot) * std::numbers::pi;
+    const Eigen::Vector2d aside_m =
+        (foot < 4 ? gear_m : 0.0) * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+    const Eigen::Vector3d from(start.x_m + aside_m.x(), start.y_m + aside_m.y(), start.z_m + kSearchFloorFrom_m);
+    const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
+    if (!hit) return std::nullopt;
+    const double height_m = from.z() - hit.distance_m;
+    footing.lowest_world_m = std::min(footing.lowest_world_m, height_m);
+    footing.highest_world_m = std::max(footing.highest_world_m, height_m);
+    rise_m2 += height_m * aside_m;
+  }
+  if (gear_m > 0.0) footing.gradient = rise_m2.norm() / (2.0 * gear_m * gear_m);  // Four feet in a square.
+  return footing;
+}
+
+/// What the hull may touch around a body at that place. Ground that slopes as the feet stand on it is higher beside the
+/// hull than below it, and a gear on a slope tilts the hull along: the part below the rise of the ground is left out.
+Clearance aboveGround(const RayCaster& rays, const Hull& hull, const Footing& footing, Eigen::Vector3d body_world_m,
+                      double margin_m) {
+  const double rise_m = std::min(footing.gradient * (hull.radius_m + margin_m), hull.half_height_m);
+  body_world_m.z() += 0.5 * rise_m;
+  return rays.sweep({hull.radius_m, hull.half_height_m - 0.5 * rise_m}, body_world_m, body_world_m, margin_m);
+}
+
 /// Puts the start on its floor; returns what blocks it, if anything does.
 std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world, const RayCaster& rays) {
   const Scenario& scenario = drawn.scenario;
   const StartConfig& start = scenario.start;
-  double lowest_m = INFINITY, highest_m = -INFINITY;
-  for (int foot = 0; foot < 5; ++foot) {
-    const double angle_rad = start.yaw_deg * kRadPerDeg + (0.25 + 0.5 * foot) * std::numbers::pi;
-    const double reach_m = foot < 4 ? scenario.quadrotor.gear_radius_m : 0.0;
-    const Eigen::Vector3d from(start.x_m + reach_m * std::cos(angle_rad), start.y_m + reach_m * std::sin(angle_rad),
-                               start.z_m + kSearchFloorFrom_m);
-    const Hit hit = rays.cast(from, -Eigen::Vector3d::UnitZ(), kSearchFloorDown_m);
-    if (!hit)
-      return startProblem(
-          drawn, world, Message("start.no-floor", "has no floor under it"),
-          "give a start over a floor, or the world one: <include><uri>model://ground_plane</uri></include>");
-    lowest_m = std::min(lowest_m, from.z() - hit.distance_m);
-    highest_m = std::max(highest_m, from.z() - hit.distance_m);
-  }
+  const std::optional<Footing> footing = footingOf(scenario, rays);
+  if (!footing)
+    return startProblem(
+        drawn, world, Message("start.no-floor", "has no floor under it"),
+        "give a start over a floor, or the world one: <include><uri>model://ground_plane</uri></include>");
+  const double lowest_m = footing->lowest_world_m, highest_m = footing->highest_world_m;
   if (highest_m - lowest_m > kUnevenFloor_m)
     return startProblem(
         drawn, world,
@@ -171,8 +200,7 @@ std::optional<Problem> placeStart(PlacedVehicle& drawn, const WorldModel& world,
   drawn.T_world_map = common::lifted({start.x_m, start.y_m, start.yaw_deg * kRadPerDeg}, highest_m);
 
   const Eigen::Vector3d body(start.x_m, start.y_m, highest_m + standingHeight_m(scenario));
-  const Hull hull = hullOf(scenario);
-  const Clearance clearance = rays.sweep(hull, body, body, kTouching_m);
+  const Clearance clearance = aboveGround(rays, hullOf(scenario), *footing, body, kTouching_m);
   if (const Shape* terrain = terrainAbove(world, rays, body))
     return startProblem(drawn, world,
                         Message("start.beneath-terrain", "is beneath the terrain {}", described(*terrain)),
@@ -203,10 +231,11 @@ std::optional<Problem> noRoomAbove(const PlacedVehicle& drawn, const WorldModel&
                                    double margin_m) {
   const Eigen::Vector3d floor_m = drawn.T_world_map.position_m;
   const Hull hull = hullOf(drawn.scenario);
+  const Footing footing = footingOf(drawn.scenario, rays).value_or(Footing());
   for (double height_m = standingHeight_m(drawn.scenario); height_m < flightHeight_m(drawn.scenario);
        height_m += hull.half_height_m) {
     const Eigen::Vector3d at = floor_m + height_m * Eigen::Vector3d::UnitZ();
-    const Clearance near = rays.sweep(hull, at, at, margin_m);
+    const Clearance near = aboveGround(rays, hull, footing, at, margin_m);
     if (near.shape == Hit::kNothing) continue;
     return startProblem(
         drawn, world,

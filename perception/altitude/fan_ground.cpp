@@ -4,27 +4,22 @@
 #include <cstddef>
 
 #include "perception/altitude/ground_cell.hpp"
-#include "perception/altitude/slope_limits.hpp"
+#include "perception/altitude/ground_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
 /// Older points of a cell are left out: the error of attitude and position stays the same for about this long.
 constexpr double kTogether_s = 3.0;
-/// Every n-th end point is enough for a plane; farther ones have a height that is wrong by the attitude.
-constexpr std::size_t kEveryPoint = 2;
-constexpr double kFanRange_m = 12.0;
 /// Nearer hits are obstacles, also on ground: below 27 cm over a slope of 15 degrees.
 constexpr double kObstacle_m = 1.0;
-/// An end point is on a slope if it is this near, m, to its plane and to the points that define the plane.
-constexpr double kOnPlane_m = 0.08, kBeside_m = 0.8;
-constexpr int kBesideCells = 2;
-/// This many cells beside it must have planes through the point: a ramp is wider than one cell, while the end points on
-/// branches and rocks may lie on a plane in a single one.
-constexpr int kLeastPlanes = 2;
 /// A plane that lies higher above the ground below the vehicle does not go on from it. The gradients of cells are wrong
 /// by up to a tenth, 3 m away.
 constexpr double kAboveGround_m = 0.3;
+/// From farther away a gradient does not tell that.
+constexpr double kFanRange_m = kAboveGround_m / kGradientSigma;
+/// An end point is on a slope if it is this near to its plane.
+constexpr double kOnPlane_m = kSigmas * kPlane_m;
 
 Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const common::Pose2& T_odom_body,
                             double height_m) {
@@ -36,7 +31,7 @@ Eigen::Vector3d pointOdom_m(const ProjectedScan& scan, std::size_t i, const comm
 
 void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body, double height_m,
                     double surface_height_m) {
-  for (std::size_t i = 0; i < scan.points_level_m.size(); i += kEveryPoint) {
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
     if (!scan.moves.empty() && scan.moves[i]) continue;
     const float range_m = scan.points_level_m[i].norm();
     if (range_m > kFanRange_m || range_m < kObstacle_m) continue;
@@ -52,18 +47,18 @@ void FanGround::add(const ProjectedScan& scan, const common::Pose2& T_odom_body,
   }
 }
 
+/// A ramp is wider than one cell, while the end points on branches and rocks may lie on a plane in a single one.
 bool FanGround::isGround(const Eigen::Vector3d& point_odom_m) const {
   const common::CellIndex center = cellAt(point_odom_m.head<2>(), kSlopeCell_m);
   int planes = 0;
-  for (int dy = -kBesideCells; dy <= kBesideCells; ++dy)
-    for (int dx = -kBesideCells; dx <= kBesideCells; ++dx) {
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
       const auto found = slopes_.find({center.x + dx, center.y + dy});
       if (found == slopes_.end()) continue;
       const Slope& slope = found->second;
-      const bool beside = (point_odom_m - slope.point_odom_m()).head<2>().norm() < kBeside_m;
-      if (beside && std::abs(point_odom_m.z() - slope.height_m(point_odom_m.head<2>())) < kOnPlane_m) ++planes;
+      if (std::abs(point_odom_m.z() - slope.height_m(point_odom_m.head<2>())) < kOnPlane_m) ++planes;
     }
-  return planes >= kLeastPlanes;
+  return planes >= kAgreeing;
 }
 
 void FanGround::remove(ProjectedScan& scan) const {

@@ -1,11 +1,12 @@
 #include "perception/altitude/floor_return.hpp"
 
+#include "perception/altitude/ground_limits.hpp"
+
 namespace swiftlet::perception::altitude {
 namespace {
 
-/// Longer than a table, and enough cells of 10 cm along that length that the paths did not just cross.
+/// Longer than a table. As many cells as lie along it: the paths did not just cross.
 constexpr double kLength_m = 2.0;
-constexpr int kCells = 15;
 
 }  // namespace
 
@@ -17,7 +18,7 @@ bool FloorReturn::sawLevelOverFloor(int level, const Eigen::Vector2d& cell_map_m
   }
   ++cells_;
   extent_map_m_.extend(cell_map_m);
-  return cells_ >= kCells && extent_map_m_.diagonal().norm() >= kLength_m;
+  return cells_ * kCell_m >= kLength_m && extent_map_m_.diagonal().norm() >= kLength_m;
 }
 
 }  // namespace swiftlet::perception::altitude

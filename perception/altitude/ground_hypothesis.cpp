@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "common/square.hpp"
+#include "perception/fusion/fusion_config.hpp"
 
 namespace swiftlet::perception::altitude {
 
@@ -14,11 +15,9 @@ using common::square;
 
 namespace {
 
-/// Random walk of the accelerometer's bias: that of temperature and of a vibration that changes with the throttle, and
-/// that of a bias which has jumped (docs/decisions/altitude.md#112).
-constexpr double kBiasWalk_m_s3_rthz = 0.01, kRestlessWalk_m_s3_rthz = 1.0;
-/// Of the zero velocity that is measured while the vehicle stands, as in the fusion filter.
-constexpr double kAtRest_m_s = 0.02;
+/// Random walk of the accelerometer's bias while it jumps: by 1.0 m/s2 within a second
+/// (docs/decisions/altitude.md#112).
+constexpr double kRestlessWalk_m_s3_rthz = 1.0;
 
 }  // namespace
 
@@ -61,11 +60,10 @@ void GroundHypothesis::predict(double dt_s, const InertialClimb& climb, bool at_
   covariance_(kHeight, kHeight) += noise * square(dt_s) / 3.0;
   covariance_(kHeight, kVelocity) += 0.5 * noise * dt_s;
   covariance_(kVelocity, kHeight) += 0.5 * noise * dt_s;
-  covariance_(kBias, kBias) += square(restless ? kRestlessWalk_m_s3_rthz : kBiasWalk_m_s3_rthz) * dt_s;
-  if (at_rest) standStill();
+  covariance_(kBias, kBias) +=
+      square(restless ? kRestlessWalk_m_s3_rthz : FusionConfig().accelerometer_bias_walk_m_s3_rthz) * dt_s;
+  if (at_rest) update(Row::Unit(kVelocity), 0.0, square(FusionConfig::zero_velocity_sigma_m_s));
 }
-
-void GroundHypothesis::standStill() { update(Row::Unit(kVelocity), 0.0, square(kAtRest_m_s)); }
 
 double GroundHypothesis::Innovation::logDensity() const {
   return -0.5 * (squaredMahalanobis() + std::log(2.0 * std::numbers::pi * variance));
@@ -123,13 +121,6 @@ void GroundHypothesis::forget(int component) {
 void GroundHypothesis::forgetGradient() {
   forget(kGradient);
   forget(kGradient + 1);
-}
-
-void GroundHypothesis::doubt(double height_m2, double speed_m2_s2, double bias_m2_s4) {
-  forget(kBias);
-  covariance_(kBias, kBias) = bias_m2_s4;
-  covariance_(kHeight, kHeight) += height_m2;
-  covariance_(kVelocity, kVelocity) += speed_m2_s2;
 }
 
 void GroundHypothesis::leave(int surface) {

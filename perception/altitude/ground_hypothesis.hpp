@@ -46,8 +46,7 @@ class GroundHypothesis {
   GroundHypothesis(const VerticalState& state, common::Time now, int serial);
 
   double log_weight = 0.0;
-  bool restless = false;   ///< The accelerometer's bias changes fast.
-  double edges_1_m = 0.0;  ///< Of surfaces that were passed a moment ago.
+  bool restless = false;  ///< The accelerometer's bias changes fast.
   std::array<Surface, kSurfaces> surfaces;
 
   VerticalState vertical() const;
@@ -56,7 +55,7 @@ class GroundHypothesis {
   double variance_m2(int surface) const { return covariance_(at(surface), at(surface)); }
   int slopingSurface() const;  ///< -1 without one.
   Eigen::Vector2d gradient() const { return state_.segment<2>(kGradient); }
-  double gradientVariance() const { return covariance_.diagonal().segment<2>(kGradient).minCoeff(); }
+  Eigen::Vector2d gradientVariance() const { return covariance_.diagonal().segment<2>(kGradient); }
 
   void predict(double dt_s, const InertialClimb& climb, bool at_rest);
 
@@ -83,8 +82,6 @@ class GroundHypothesis {
 
   void beginSlope(int surface, const Eigen::Vector2d& place_map_m, const Eigen::Vector2d& gradient, double variance);
   void endSlope(const Eigen::Vector2d& place_map_m);
-  /// Height, speed and bias are hardly known any more.
-  void doubt(double height_m2, double speed_m2_s2, double bias_m2_s4);
 
  private:
   static constexpr int kHeight = 0, kVelocity = 1, kBias = 2, kGradient = 3, kFirst = 5, kSize = kFirst + kSurfaces;
@@ -92,7 +89,6 @@ class GroundHypothesis {
   using Covariance = Eigen::Matrix<double, kSize, kSize>;
   using Row = Eigen::Matrix<double, 1, kSize>;
 
-  void standStill();
   static int at(int surface) { return kFirst + surface; }
   Row row(int surface, const Eigen::Vector2d& place_map_m) const;
   Innovation innovationOf(const Row& row, double value, double variance) const;

@@ -6,15 +6,12 @@
 #include <Eigen/Dense>
 
 #include "common/square.hpp"
-#include "perception/altitude/slope_limits.hpp"
+#include "perception/altitude/ground_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-/// Three points make a plane; this many average their noise. kSpread_m decides whether they determine its gradient.
-constexpr int kLeastPoints = 20;
-/// Least spread of the points in each direction, and greatest of their distances from the plane.
-constexpr double kSpread_m = 0.07, kFlat_m = 0.03;
+constexpr int kParameters = 3;  ///< Of a plane.
 
 }  // namespace
 
@@ -25,17 +22,21 @@ void GroundPlane::add(const Eigen::Vector3d& point_m) {
 }
 
 std::optional<Eigen::Vector2d> GroundPlane::gradient() const {
-  if (points_ < kLeastPoints) return std::nullopt;
+  if (points_ <= kParameters) return std::nullopt;
   const Eigen::Matrix3d spread_m2 = products_m2_ / points_ - mean_m() * mean_m().transpose();
   const Eigen::Matrix2d across_m2 = spread_m2.topLeftCorner<2, 2>();
   const double half_trace_m2 = 0.5 * across_m2.trace();
   const double least_m2 =
       half_trace_m2 - std::sqrt(std::max(0.0, common::square(half_trace_m2) - across_m2.determinant()));
-  if (least_m2 < common::square(kSpread_m)) return std::nullopt;
+  // A line of points is broad only by their noise, however many they are.
+  if (least_m2 < common::square(2.0 * kPlane_m)) return std::nullopt;
   const Eigen::Vector2d rising_m2(spread_m2(0, 2), spread_m2(1, 2));
   const Eigen::Vector2d gradient = across_m2.ldlt().solve(rising_m2);
   const double off_m2 = spread_m2(2, 2) - gradient.dot(rising_m2);
-  if (off_m2 > common::square(kFlat_m) || gradient.norm() > kSteepestGradient) return std::nullopt;
+  const double variance =
+      std::max(off_m2, common::square(kFlatness_m)) / ((points_ - kParameters) * least_m2);  // Where it is greatest.
+  if (off_m2 > common::square(kPlane_m) || variance > common::square(kGradientSigma)) return std::nullopt;
+  if (gradient.norm() > kSteepestGradient) return std::nullopt;
   return gradient;
 }
 

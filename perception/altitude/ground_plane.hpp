@@ -13,7 +13,8 @@ class GroundPlane {
   /// Relative to a place nearby, so that the sums stay small.
   void add(const Eigen::Vector3d& point_m);
 
-  /// The gradient g. None if the points are too few, too near to a line, not on a plane, or it is steeper than ground.
+  /// The gradient g. None if the points do not determine it to kGradientSigma, as they are few or lie along a line, if
+  /// they are not on a plane, or if it is steeper than ground.
   std::optional<Eigen::Vector2d> gradient() const;
   /// Of the points; there must be one.
   Eigen::Vector3d mean_m() const { return sum_m_ / points_; }

@@ -5,24 +5,15 @@
 #include <tuple>
 #include <utility>
 
+#include "perception/altitude/ground_limits.hpp"
+
 namespace swiftlet::perception::altitude {
-namespace {
-
-/// Twice the range of the laser that the shipped profiles have (UTM-30LX: 30 m). Farther is a defective value.
-constexpr double kFarthest_m = 60.0;
-/// A wider gap between the sorted distances separates two surfaces: six standard deviations of one beam (0.01 m).
-constexpr double kSurfaceGap_m = 0.06;
-/// Fewer beams that agree are outliers, unless there are no more.
-constexpr std::size_t kFewestBeams = 2;
-
-}  // namespace
-
 std::vector<SurfaceSight> surfacesBelow(std::span<const GroundPoint> points, const LevelStore& store) {
   std::vector<const GroundPoint*> beams;
   beams.reserve(points.size());
   for (const GroundPoint& point : points) {
-    const bool usable = point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) &&
-                        point.distance_below_m > 0.0 && point.distance_below_m < kFarthest_m;
+    const bool usable =
+        point.position_map_m.allFinite() && std::isfinite(point.distance_below_m) && point.distance_below_m > 0.0;
     if (usable) beams.push_back(&point);
   }
   const auto key = [](const GroundPoint* beam) {
@@ -34,7 +25,7 @@ std::vector<SurfaceSight> surfacesBelow(std::span<const GroundPoint> points, con
     end = begin + 1;
     while (end < beams.size() && beams[end]->distance_below_m - beams[end - 1]->distance_below_m <= kSurfaceGap_m)
       ++end;
-    if (end - begin < std::min(kFewestBeams, beams.size())) continue;
+    if (end - begin < std::min<std::size_t>(kAgreeing, beams.size())) continue;
     SurfaceSight sight;
     sight.beams = static_cast<int>(end - begin);
     for (std::size_t i = begin; i < end; ++i) {

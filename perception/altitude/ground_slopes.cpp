@@ -4,19 +4,14 @@
 #include <map>
 
 #include "perception/altitude/ground_cell.hpp"
+#include "perception/altitude/ground_limits.hpp"
 #include "perception/altitude/ground_plane.hpp"
-#include "perception/altitude/slope_limits.hpp"
 
 namespace swiftlet::perception {
 namespace {
 
-/// Every n-th pixel in both directions.
+/// Every n-th pixel in both directions: a cell 4 m away still has a hundred points.
 constexpr int kEvery_px = 3;
-/// Points this far below the camera and lower may be ground.
-constexpr double kBelow_m = 0.3;
-/// Farther away the depths of structured-light cameras are too noisy for a gradient [Khoshelham 2012].
-constexpr double kRange_m = 4.0;
-constexpr int kLeastImages = 3;  ///< So that no single image decides.
 /// Share of a cell's gradient that becomes part of the bias: some hundred cells of level ground make it known.
 constexpr double kBiasGain = 0.01;
 
@@ -32,10 +27,10 @@ void GroundSlopes::add(const common::DepthImage& depth, const common::PinholeCam
   for (int v = kEvery_px / 2; v < depth.height_px; v += kEvery_px)
     for (int u = kEvery_px / 2; u < depth.width_px; u += kEvery_px) {
       const float depth_m = depth.at(u, v);
-      if (!common::isMeasured(depth_m) || depth_m > kRange_m) continue;
+      if (!common::isMeasured(depth_m)) continue;
       // Relative to the camera, so that the sums stay small.
       const Eigen::Vector3d point = T_map_camera.rotation * camera.point_camera_m(u, v, depth_m);
-      if (point.z() > -kBelow_m) continue;
+      if (point.z() > 0.0) continue;
       const Eigen::Vector2d place_map_m = (from_map_m + point).head<2>();
       if (place_map_m.allFinite()) planes[cells_.cellAt(place_map_m)].add(point);
     }
@@ -60,7 +55,7 @@ std::optional<Eigen::Vector2d> GroundSlopes::gradientAt(const Eigen::Vector2d& p
     sum += Eigen::Rotation2Dd(square.T_map_square.yaw_rad) * square.content.gradient_sum;
     images += square.content.images;
   });
-  if (images < kLeastImages) return std::nullopt;
+  if (images < kAgreeing) return std::nullopt;
   const Eigen::Vector2d mean = sum / images;
   return mean.norm() < kLeastGradient ? Eigen::Vector2d(0.0, 0.0) : mean;
 }

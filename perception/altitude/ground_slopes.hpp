@@ -21,10 +21,6 @@ class GroundSlopes {
  public:
   GroundSlopes();
 
-  /// The standard deviation of a gradient (rise over run): what is left of the error of attitude and mount;
-  /// 0.016 over eight ramps of trials/ramp.yaml.
-  static constexpr double kGradientSigma = 0.02;
-
   /// Moves and turns what was seen with the key scans of the map; see KeyedCells.
   void follow(const common::KeyPoses& keys, int newest_key) { cells_.follow(keys, newest_key); }
 

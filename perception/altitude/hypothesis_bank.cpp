@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "common/square.hpp"
-#include "perception/altitude/ground_slopes.hpp"
+#include "perception/altitude/ground_cell.hpp"
+#include "perception/altitude/ground_limits.hpp"
 
 namespace swiftlet::perception::altitude {
 
@@ -13,42 +14,38 @@ using common::Time;
 
 namespace {
 
-// How often something begins, by the path or by the time: orders of magnitude of furnished rooms, which were chosen on
-// the flights of tests/altitude (docs/decisions/altitude.md#112, where two of them were varied).
-constexpr double kEdges_1_m = 0.5;            ///< Edges of furniture, in a room that has some;
-constexpr double kClutter_m = 0.5;            ///< where one was, there are others within this distance.
-constexpr double kSomethingMoves_1_s = 0.02;  ///< Something is put below or taken away while the vehicle stays.
-constexpr double kSlopes_1_m = 0.05, kSteepSlopes_1_m = 0.02, kSlopeEnds_1_m = 1.0;
-constexpr double kAsSeen = 10.0;  ///< A slope begins or ends so much oftener where a camera saw it do so, and seldomer.
-constexpr double kRestless_1_s = 0.002, kCalm_1_s = 2.0;  ///< The bias changes fast, and stops doing so.
-constexpr double kLost_1_s = 2e-5;                        ///< Something that none of these hypotheses explains.
+// How often what is below changes: orders of magnitude of furnished rooms, which were chosen on the flights of
+// tests/altitude (docs/decisions/altitude.md#112).
+constexpr double kEdges_1_m = 0.5;    ///< Rate along the path at which surfaces and slopes end.
+constexpr double kSlopes_1_m = 0.05;  ///< Rate along the path at which slopes begin.
+constexpr double kSway_m = 0.001;     ///< The beams wander by this between two scans while the vehicle hovers.
+constexpr double kRestless_1_s = 0.002, kCalm_1_s = 2.0;  ///< Rates at which the bias begins and ends to change fast.
+/// Probability that an unknown surface lies below the take-off floor: holes are rare.
+constexpr double kBelowFloor = 1e-3;
 
-// What it is like.
-constexpr double kGradientSigma = 0.25;      ///< Ramps have up to 15 degrees, the backs of sofas 20;
-constexpr double kSteepGradientSigma = 1.5;  ///< cushions, banisters and heaps are steeper.
-constexpr double kLost_m = 1.0, kLost_m_s = 1.0, kLost_m_s2 = 0.3;
-
-// What a surface that comes into sight is: a level known at the place or near it, the floor, another surface.
-constexpr double kKnownHere = 0.8, kKnownNear = 0.15, kFloorAnywhere = 0.5, kOther = 0.5, kOtherHere = 0.1;
-constexpr double kReturn = 0.005;  ///< The share of edges behind which lies what was below a moment ago.
-/// Most furniture is lower than a metre. Hardly anything lies just below the take-off floor, and little deep below it.
-constexpr double kFurniture_m = 1.0, kLow_1_m = 0.8, kHigh_1_m = 0.1;
-constexpr double kOnFloor_m = 0.03, kLeastStepDown_m = 0.25, kSunk = 1e-3, kBelowFloor = 0.02;
-
-constexpr double kGate2 = 25.0;  ///< What is farther off than five standard deviations is another surface.
-/// Without anything below for this long, the other sensors know the height better than this filter remembers it.
-constexpr double kRemembered_s = 0.5;
-
-// How many hypotheses there are.
-constexpr std::size_t kMost = 30;
-constexpr int kBranching = 3;                    ///< Slopes begin in so many of the likeliest.
-constexpr double kNegligible = -14.0;            ///< Logarithm of a weight, against the best, that is given up.
-constexpr double kEnds_m = 0.05, kLost_s = 0.2;  ///< How often it is asked whether a slope has ended, or all is lost.
-constexpr double kSure = 0.9, kAgree_m = 0.02;
+constexpr std::size_t kMost = 30;  ///< Number of hypotheses, bounded for speed.
+/// Logarithm of the weight, against the best, below which a hypothesis is given up.
+constexpr double kNegligible = -14.0;
+/// Squared Mahalanobis distance at which a likelihood is that small.
+constexpr double kGate2 = -2.0 * kNegligible;
+/// Two estimates are alike if they, and their standard deviations, differ by less than this share of the latter.
+constexpr double kAlike = 0.5;
 
 double weightOf(const GroundHypothesis& h) { return std::exp(h.log_weight); }
 
-/// Whether both say the same of what is below now, and of the vehicle: within what no flight would notice.
+/// Whether what follows from a hypothesis with that probability would not be given up at once.
+bool isWorthIt(const GroundHypothesis& h, double chance) { return h.log_weight + std::log(chance) > kNegligible; }
+
+struct Gaussian {
+  double mean, variance;
+};
+
+bool areAlike(const Gaussian& a, const Gaussian& b) {
+  const auto [less, more] = std::minmax(a.variance, b.variance);
+  return square(a.mean - b.mean) <= square(kAlike) * less && square(kAlike) * more <= less;
+}
+
+/// Whether both say the same of what is below now, and of the vehicle.
 bool areSame(const GroundHypothesis& a, const GroundHypothesis& b, Time now) {
   if (a.restless != b.restless) return false;
   for (int i = 0; i < kSurfaces; ++i) {
@@ -58,15 +55,15 @@ bool areSame(const GroundHypothesis& a, const GroundHypothesis& b, Time now) {
       return t.isSeen(now) && t.sight == s.sight && t.level == s.level && t.slopes == s.slopes;
     });
     if (match == b.surfaces.end()) return false;
-    if (std::abs(a.height_m(i) - b.height_m(static_cast<int>(match - b.surfaces.begin()))) > 0.01) return false;
+    const int j = static_cast<int>(match - b.surfaces.begin());
+    if (!areAlike({a.height_m(i), a.variance_m2(i)}, {b.height_m(j), b.variance_m2(j)})) return false;
   }
-  const auto alike = [](double one, double other, double factor) {
-    return one <= factor * other && other <= factor * one;
-  };
   const VerticalState x = a.vertical(), y = b.vertical();
-  return std::abs(x.height_m - y.height_m) < 0.005 && std::abs(x.velocity_m_s - y.velocity_m_s) < 0.01 &&
-         std::abs(x.bias_m_s2 - y.bias_m_s2) < 0.02 && alike(x.covariance(2, 2), y.covariance(2, 2), 2.0) &&
-         (a.gradient() - b.gradient()).norm() < 0.02 && alike(a.gradientVariance(), b.gradientVariance(), 4.0);
+  for (int i = 0; i < 3; ++i)
+    if (!areAlike({x.mean()[i], x.covariance(i, i)}, {y.mean()[i], y.covariance(i, i)})) return false;
+  for (int i = 0; i < 2; ++i)
+    if (!areAlike({a.gradient()[i], a.gradientVariance()[i]}, {b.gradient()[i], b.gradientVariance()[i]})) return false;
+  return true;
 }
 
 }  // namespace
@@ -85,17 +82,13 @@ void HypothesisBank::predict(const ScanStep& step, const std::optional<InertialC
                              const std::optional<Eigen::Vector2d>& gradient_map) {
   step_ = step;
   gradient_ = gradient_map;
-  if (!climb || (step.now - seen_).seconds() > kRemembered_s) {
-    bank_.erase(bank_.begin() + 1, bank_.end());
-    bank_.front().assume(known);
-    return;
-  }
-  for (GroundHypothesis& h : bank_) {
+  const bool forgotten = !climb || (step.now - seen_).seconds() > kConfirmed_s;
+  if (forgotten) bank_.erase(bank_.begin() + 1, bank_.end());
+  for (GroundHypothesis& h : bank_)
     for (int i = 0; i < kSurfaces; ++i)
-      if ((step.before - h.surfaces[static_cast<std::size_t>(i)].last).seconds() > kRemembered_s) h.leave(i);
-    h.predict(step.seconds(), *climb, at_rest);
-    h.edges_1_m *= std::exp(-step.moved_m() / kClutter_m);
-  }
+      if (forgotten || h.surfaces[static_cast<std::size_t>(i)].last != seen_) h.leave(i);
+  if (forgotten) return bank_.front().assume(known);
+  for (GroundHypothesis& h : bank_) h.predict(step.seconds(), *climb, at_rest);
   branch();
 }
 
@@ -107,22 +100,15 @@ void HypothesisBank::branch() {
     next_.back().log_weight += std::log(chance);
     return next_.back();
   };
-  if (unbranched_m_ += step_.moved_m(); unbranched_m_ >= kEnds_m) {
-    const bool seen_level = gradient_ && gradient_->isZero();
-    for (const GroundHypothesis& h : bank_)
-      if (h.slopingSurface() >= 0)
-        add(h, (seen_level ? kAsSeen : 1.0) * kSlopeEnds_1_m * unbranched_m_).endSlope(step_.to_map_m);
-    unbranched_m_ = 0.0;
-  }
+  const bool seen_level = gradient_ && gradient_->isZero();
+  const double ends = (seen_level ? 1.0 / kSlopeCell_m : kEdges_1_m) * step_.moved_m();
+  for (const GroundHypothesis& h : bank_)
+    if (h.slopingSurface() >= 0 && isWorthIt(h, ends)) add(h, ends).endSlope(step_.to_map_m);
   for (const bool restless : {false, true}) {
     const auto likeliest =
         std::find_if(bank_.begin(), bank_.end(), [&](const auto& h) { return h.restless == restless; });
     if (likeliest != bank_.end())
       add(*likeliest, (restless ? kCalm_1_s : kRestless_1_s) * step_.seconds()).restless = !restless;
-  }
-  if (unbranched_s_ += step_.seconds(); unbranched_s_ >= kLost_s) {
-    add(bank_.front(), kLost_1_s * unbranched_s_).doubt(square(kLost_m), square(kLost_m_s), square(kLost_m_s2));
-    unbranched_s_ = 0.0;
   }
   bank_.insert(bank_.end(), next_.begin(), next_.end());
 }
@@ -132,17 +118,16 @@ void HypothesisBank::weigh(std::span<const SurfaceSight> sights) {
     near_.clear();
     return prune();
   }
-  seen_ = step_.now;
   const std::size_t most = std::min<std::size_t>(sights.size(), kSurfaces);
   // The largest surface comes last, as recognize() is about it.
   for (std::size_t number = most; number-- > 0;) {
     look(sights[number]);
     next_.clear();
-    int rank = 0;
-    for (const GroundHypothesis& h : bank_) associate(h, rank++ < kBranching, sights[number], static_cast<int>(number));
+    for (const GroundHypothesis& h : bank_) associate(h, sights[number], static_cast<int>(number));
     std::swap(bank_, next_);
     prune();
   }
+  seen_ = step_.now;
   recognize();
   prune();
 }
@@ -151,7 +136,6 @@ void HypothesisBank::look(const SurfaceSight& sight) {
   center_ = levels_.cellAt(sight.center_map_m);
   levels_.near(center_, kNeighbourhood_m, near_);
   if (config_.one_floor && (near_.empty() || near_.front() != kFloor)) near_.insert(near_.begin(), kFloor);
-  known_here_ = std::any_of(near_.begin(), near_.end(), [&](int id) { return levels_.coversAround(id, center_); });
 }
 
 /// A small surface is part of a level only if that is known at its place. The floor may be anywhere.
@@ -159,56 +143,51 @@ bool HypothesisBank::mayBe(int level, bool small) const {
   return !small || levels_.isSame(level, kFloor) || levels_.coversAround(level, center_);
 }
 
-double HypothesisBank::shareOfLevel(int level) const {
-  if (levels_.coversAround(level, center_)) return kKnownHere;
-  return levels_.isSame(level, kFloor) ? kFloorAnywhere : kKnownNear;
-}
-
-/// Density of the height of a surface that is no known level.
-double HypothesisBank::shareOfUnknown_1_m(double height_m) const {
-  double density_1_m = height_m < kFurniture_m ? kLow_1_m : kHigh_1_m;
-  if (config_.one_floor && height_m < kOnFloor_m) density_1_m *= height_m > -kLeastStepDown_m ? kSunk : kBelowFloor;
-  return (known_here_ ? kOtherHere : kOther) * density_1_m;
+/// Density of the height of a surface that is no known level, where each of these has the probability 1: any between
+/// the floor and the vehicle.
+double HypothesisBank::unknownDensity_1_m(double vehicle_m, double height_m) const {
+  return (config_.one_floor && height_m < 0.0 ? kBelowFloor : 1.0) / std::max(vehicle_m, kFlatness_m);
 }
 
 /// All that the hypothesis allows this surface to be, into next_.
-void HypothesisBank::associate(const GroundHypothesis& h, bool branches, const SurfaceSight& sight, int number) {
-  const double distance_m = sight.distance_below_m, noise_m2 = variance_m2(sight.beams);
-  const double edge =
-      std::min(0.5, (kEdges_1_m + h.edges_1_m) * step_.moved_m() + kSomethingMoves_1_s * step_.seconds());
-  const bool any_before =
-      std::any_of(h.surfaces.begin(), h.surfaces.end(), [&](const Surface& s) { return s.isSeen(step_.before); });
+void HypothesisBank::associate(const GroundHypothesis& h, const SurfaceSight& sight, int number) {
+  const double noise_m2 = variance_m2(sight.beams);
+  const double goes_on = std::exp(-kEdges_1_m * (step_.moved_m() + kSway_m));
   const auto goOn = [&](GroundHypothesis from, int i, double share) {
-    const auto innovation = from.innovation(i, sight.center_map_m, distance_m, noise_m2);
+    const auto innovation = from.innovation(i, sight.center_map_m, sight.distance_below_m, noise_m2);
     if (innovation.squaredMahalanobis() > kGate2) return;
     from.log_weight += std::log(share) + innovation.logDensity();
-    from.measure(i, sight.center_map_m, distance_m, noise_m2);
+    from.measure(i, sight.center_map_m, sight.distance_below_m, noise_m2);
     from.surfaces[static_cast<std::size_t>(i)].seenAgain(step_.now, number);
     next_.push_back(from);
   };
-  const auto slope = [&](int i, const Eigen::Vector2d& gradient, double sigma, double per_m) {
-    GroundHypothesis sloping = h;
-    sloping.beginSlope(i, step_.from_map_m, gradient, square(sigma));
-    goOn(sloping, i, std::min(0.5, per_m * step_.moved_m()));
-  };
+  bool any_before = false;
   for (int i = 0; i < kSurfaces; ++i) {
     const Surface& s = h.surfaces[static_cast<std::size_t>(i)];
-    if (s.serial == 0 || s.last == step_.now) continue;
-    const bool goes_on = s.isSeen(step_.before);
-    goOn(h, i, goes_on ? 1.0 - edge : kReturn * (any_before ? edge : 1.0));
-    if (!goes_on || !branches || h.slopingSurface() >= 0 || step_.moved_m() <= 0.0) continue;
-    if (gradient_ && !gradient_->isZero()) {
-      slope(i, *gradient_, GroundSlopes::kGradientSigma, kAsSeen * kSlopeEnds_1_m);
-      continue;
-    }
-    const double share = gradient_ ? 1.0 / kAsSeen : 1.0;
-    slope(i, Eigen::Vector2d::Zero(), kGradientSigma, share * kSlopes_1_m);
-    slope(i, Eigen::Vector2d::Zero(), kSteepGradientSigma, share * kSteepSlopes_1_m);
+    any_before = any_before || s.serial != 0;
+    if (!s.isSeen(seen_)) continue;
+    goOn(h, i, goes_on);
+    const double slopes = slopeBegins();
+    if (h.slopingSurface() >= 0 || !isWorthIt(h, slopes)) continue;
+    GroundHypothesis sloping = h;
+    const bool seen = gradient_.has_value();
+    sloping.beginSlope(i, step_.from_map_m, seen ? *gradient_ : Eigen::Vector2d::Zero(),
+                       square(seen ? kGradientSigma : kSteepestGradient));
+    goOn(sloping, i, slopes);
   }
+  meetAnother(h, sight, number, any_before ? 1.0 - goes_on : 1.0);
+}
 
-  const double new_share = any_before ? edge : 1.0;
+/// Probability that a slope begins in this step: not where a camera saw level ground, and in the cell where it saw one.
+double HypothesisBank::slopeBegins() const {
+  if (!gradient_) return kSlopes_1_m * step_.moved_m();
+  return gradient_->isZero() ? 0.0 : 1.0 - std::exp(-step_.moved_m() / kSlopeCell_m);
+}
+
+/// The surface is another than those before: a known level, or unknown.
+void HypothesisBank::meetAnother(const GroundHypothesis& h, const SurfaceSight& sight, int number, double share) {
+  const double noise_m2 = variance_m2(sight.beams);
   GroundHypothesis another = h;
-  if (any_before) another.edges_1_m += 1.0 / kClutter_m;
   const int i = another.makeRoom();
   Surface& surface = another.surfaces[static_cast<std::size_t>(i)];
   surface = {.serial = ++serials_, .first = step_.now};
@@ -221,17 +200,18 @@ void HypothesisBank::associate(const GroundHypothesis& h, bool branches, const S
     if (below_already) continue;
     const LevelEstimate& level = levels_.at(id);
     const auto innovation =
-        h.innovationOver(level.height_m, distance_m, noise_m2 + level.variance_m2 + square(kFlatness_m));
+        h.innovationOver(level.height_m, sight.distance_below_m, noise_m2 + level.variance_m2 + square(kFlatness_m));
     if (innovation.squaredMahalanobis() > kGate2) continue;
     next_.push_back(another);
     GroundHypothesis& over = next_.back();
     over.surfaces[static_cast<std::size_t>(i)].level = id;
-    over.log_weight += std::log(new_share * shareOfLevel(id)) + innovation.logDensity();
+    over.log_weight += std::log(share) + innovation.logDensity();
     over.meetKnown(i, level.height_m, level.variance_m2);
-    over.measure(i, sight.center_map_m, distance_m, noise_m2);
+    over.measure(i, sight.center_map_m, sight.distance_below_m, noise_m2);
   }
-  another.log_weight += std::log(new_share * shareOfUnknown_1_m(h.vertical().height_m - distance_m));
-  another.meetUnknown(i, distance_m, noise_m2);
+  const double vehicle_m = h.vertical().height_m;
+  another.log_weight += std::log(share * unknownDensity_1_m(vehicle_m, vehicle_m - sight.distance_below_m));
+  another.meetUnknown(i, sight.distance_below_m, noise_m2);
   next_.push_back(another);
 }
 
@@ -243,15 +223,15 @@ void HypothesisBank::recognize() {
       Surface& s = h.surfaces[static_cast<std::size_t>(i)];
       if (!s.isSeen(step_.now) || s.sight != 0 || s.level != kNoLevel || s.slopes) continue;
       for (const int id : near_) {
-        if (s.denied_level == id || !mayBe(id, (step_.now - s.first).seconds() < kSmall_s)) continue;
+        if (s.denied_level == id || !mayBe(id, (step_.now - s.first).seconds() < kConfirmed_s)) continue;
         const LevelEstimate& level = levels_.at(id);
         const auto innovation = h.innovationOfHeight(i, level.height_m, level.variance_m2 + square(kFlatness_m));
         if (innovation.squaredMahalanobis() > kGate2) continue;
         next_.push_back(h);
-        next_.back().log_weight += std::log(shareOfLevel(id)) + innovation.logDensity();
-        next_.back().knowHeight(i, level.height_m, std::max(level.variance_m2, 1e-8));
+        next_.back().log_weight += innovation.logDensity();
+        next_.back().knowHeight(i, level.height_m, level.variance_m2);
         next_.back().surfaces[static_cast<std::size_t>(i)].level = id;
-        h.log_weight += std::log(shareOfUnknown_1_m(h.height_m(i)));
+        h.log_weight += std::log(unknownDensity_1_m(h.vertical().height_m, h.height_m(i)));
         s.denied_level = id;
         break;
       }
@@ -281,10 +261,12 @@ void HypothesisBank::prune() {
 }
 
 bool HypothesisBank::isSure() const {
-  double share = 0.0;
+  const VerticalState here = best().vertical();
+  double agreeing = 0.0;
   for (const GroundHypothesis& h : bank_)
-    if (std::abs(h.vertical().height_m - best().vertical().height_m) < kAgree_m) share += weightOf(h);
-  return share >= kSure;
+    if (square(h.vertical().height_m - here.height_m) <= square(kSigmas) * here.covariance(0, 0))
+      agreeing += weightOf(h);
+  return agreeing > 0.5;
 }
 
 VerticalState HypothesisBank::state() const {

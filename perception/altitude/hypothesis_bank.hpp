@@ -26,13 +26,11 @@
 
 namespace swiftlet::perception::altitude {
 
-/// A level known within this distance is near.
+/// A level known within this distance is near: as wide as a table.
 inline constexpr double kNeighbourhood_m = 0.8;
-/// Standard deviation of a real surface from flat, shared by all beams of a scan: no level is known better.
-inline constexpr double kFlatness_m = 0.005;
-/// What was seen for less time is a small surface: no level, and no part of one that is known near by
-/// (docs/decisions/altitude.md#095).
-inline constexpr double kSmall_s = 0.3;
+/// What was seen for less time is a small surface: no level, and no part of one that is known near by. What was not
+/// seen for as long is forgotten (docs/decisions/altitude.md#095).
+inline constexpr double kConfirmed_s = 0.3;
 
 /// The vehicle's way from the scan before to this one.
 struct ScanStep {
@@ -60,7 +58,8 @@ class HypothesisBank {
   const GroundHypothesis& best() const { return bank_.front(); }
   /// Of the best hypothesis; that others disagree makes it less certain.
   VerticalState state() const;
-  /// Whether so many hypotheses agree on the height that the map of levels may learn from it.
+  /// Whether those that agree with the best one on the height are likelier than all others together, so that the map of
+  /// levels may learn from it.
   bool isSure() const;
   /// The surface has become a level.
   void nameLevel(int serial, int level);
@@ -71,12 +70,13 @@ class HypothesisBank {
  private:
   void branch();
   void look(const SurfaceSight& sight);
-  void associate(const GroundHypothesis& h, bool branches, const SurfaceSight& sight, int number);
+  void associate(const GroundHypothesis& h, const SurfaceSight& sight, int number);
+  void meetAnother(const GroundHypothesis& h, const SurfaceSight& sight, int number, double share);
+  double slopeBegins() const;
   void recognize();
   void prune();
   bool mayBe(int level, bool small) const;
-  double shareOfLevel(int level) const;
-  double shareOfUnknown_1_m(double height_m) const;
+  double unknownDensity_1_m(double vehicle_m, double height_m) const;
   double variance_m2(int beams) const;
 
   MultilevelConfig config_;
@@ -84,14 +84,12 @@ class HypothesisBank {
   /// The likeliest first; never empty after start(). After prune() the weights sum to one.
   std::vector<GroundHypothesis> bank_, next_;
   int serials_ = 0;
-  double unbranched_m_ = 0.0, unbranched_s_ = 0.0;
   common::Time seen_;  ///< When something was below.
   // Of the present scan.
   ScanStep step_;
   std::optional<Eigen::Vector2d> gradient_;
   std::vector<int> near_;
   common::CellIndex center_;
-  bool known_here_ = false;  ///< A level is known at the place.
 };
 
 }  // namespace swiftlet::perception::altitude

@@ -52,15 +52,11 @@ void LevelStore::near(CellIndex center, double distance_m, std::vector<int>& lev
   std::sort(levels.begin(), levels.end());
 }
 
-bool LevelStore::meet(int a, int b, CellIndex center, double distance_m, double gap_m) const {
-  const int r = reach(distance_m), gap = reach(gap_m);
+bool LevelStore::meet(int a, int b, CellIndex center, double distance_m) const {
+  const int r = reach(distance_m);
   for (int y = center.y - r; y <= center.y + r; ++y)
-    for (int x = center.x - r; x <= center.x + r; ++x) {
-      if (!covers(a, {x, y})) continue;
-      for (int v = y - gap; v <= y + gap; ++v)
-        for (int u = x - gap; u <= x + gap; ++u)
-          if (covers(b, {u, v})) return true;
-    }
+    for (int x = center.x - r; x <= center.x + r; ++x)
+      if (covers(a, {x, y}) && coversAround(b, {x, y})) return true;
   return false;
 }
 

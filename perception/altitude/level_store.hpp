@@ -37,8 +37,8 @@ class LevelStore {
   bool covers(int level, common::CellIndex cell) const;
   /// Whether the level covers the cell or one beside it.
   bool coversAround(int level, common::CellIndex cell) const;
-  /// Whether cells of both levels, within `distance_m` (a square) of `center`, are at most `gap_m` apart.
-  bool meet(int a, int b, common::CellIndex center, double distance_m, double gap_m) const;
+  /// Whether cells of both levels touch within `distance_m` (a square) of `center`.
+  bool meet(int a, int b, common::CellIndex center, double distance_m) const;
   /// Whether one has been joined into the other.
   bool isSame(int a, int b) const { return resolved(a) == resolved(b); }
   /// Merges both levels into the older one and returns its id: multiplies the Gaussians and unites the cells (Grzonka

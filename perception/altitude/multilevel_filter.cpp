@@ -7,9 +7,11 @@
 #include "common/square.hpp"
 #include "common/vehicle_state.hpp"
 #include "perception/altitude/floor_return.hpp"
+#include "perception/altitude/ground_limits.hpp"
 #include "perception/altitude/ground_scan.hpp"
 #include "perception/altitude/hypothesis_bank.hpp"
 #include "perception/altitude/level_store.hpp"
+#include "perception/fusion/fusion_config.hpp"
 
 namespace swiftlet::perception {
 
@@ -17,18 +19,6 @@ using namespace altitude;
 using common::CellIndex;
 using common::square;
 using common::Time;
-namespace {
-
-/// Side of a cell of the level map.
-constexpr double kCell_m = 0.10;
-/// Two levels whose cells come this close near the vehicle meet.
-constexpr double kJoinDistance_m = 0.20;
-/// Two levels are one if their heights differ by less than 3.5 standard deviations.
-constexpr double kSame2 = 12.0;
-/// A surface that is not small and was seen in so many scans becomes a level.
-constexpr int kNewLevelScans = 3;
-
-}  // namespace
 
 struct MultilevelFilter::Impl {
   explicit Impl(const Config& c) : config(c), store(kCell_m), bank(c, store) {}
@@ -84,8 +74,7 @@ void MultilevelFilter::Impl::learnNewLevels(AltitudeUpdate& outcome) {
     const Surface& s = best.surfaces[static_cast<std::size_t>(i)];
     if (!s.isSeen(step.now) || s.level != kNoLevel) continue;
     for (const CellIndex& cell : sightOf(s).cells) pending.push_back({s.serial, cell});
-    const bool confirmed = s.scans >= kNewLevelScans && (step.now - s.first).seconds() >= kSmall_s;
-    if (s.slopes || !confirmed || !bank.isSure()) continue;
+    if (s.slopes || (step.now - s.first).seconds() < kConfirmed_s || !bank.isSure()) continue;
     const int id = store.add(best.height_m(i), std::max(best.variance_m2(i), square(kFlatness_m)));
     for (const PendingCell& cell : pending)
       if (cell.serial == s.serial) store.extend(id, cell.cell);
@@ -137,8 +126,8 @@ void MultilevelFilter::Impl::searchForLoopClosures(AltitudeUpdate& outcome) {
       const LevelEstimate& a = store.at(near[i]);
       const LevelEstimate& b = store.at(near[j]);
       const double variance_m2 = a.variance_m2 + b.variance_m2 + 2.0 * square(kFlatness_m);
-      if (square(a.height_m - b.height_m) > kSame2 * variance_m2 ||
-          !store.meet(near[i], near[j], bank.center(), kNeighbourhood_m, kJoinDistance_m)) {
+      if (square(a.height_m - b.height_m) > square(kSigmas) * variance_m2 ||
+          !store.meet(near[i], near[j], bank.center(), kNeighbourhood_m)) {
         ++j;
         continue;
       }
@@ -162,13 +151,13 @@ void MultilevelFilter::initialize(Time time, const Eigen::Vector2d& position_map
   f.floor_return.reset();
   const int floor = f.store.add(0.0, 0.0);
   const CellIndex here = f.store.cellAt(position_map_m);
-  const int around = static_cast<int>(std::lround(kJoinDistance_m / kCell_m));
-  for (int y = -around; y <= around; ++y)
-    for (int x = -around; x <= around; ++x) f.store.extend(floor, {here.x + x, here.y + y});
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) f.store.extend(floor, {here.x + x, here.y + y});
   VerticalState standing{height_m, 0.0, 0.0, {}};
-  constexpr double kAtRest_m_s = 0.01, kBias_m_s2 = 0.2;
-  standing.covariance =
-      Eigen::Vector3d(common::kStandingHeightSigma_m, kAtRest_m_s, kBias_m_s2).cwiseAbs2().asDiagonal();
+  standing.covariance = Eigen::Vector3d(common::kStandingHeightSigma_m, FusionConfig::zero_velocity_sigma_m_s,
+                                        FusionConfig().accelerometer_bias_sigma_m_s2)
+                            .cwiseAbs2()
+                            .asDiagonal();
   f.bank.start(standing, time);
   f.step = {time, time, position_map_m, position_map_m};
   f.initialized = true;

@@ -33,10 +33,12 @@ class WorldNumbers : public ::testing::Test {
         folder_.write("world.sdf", "<sdf version='1.9'>\n<world name='w'>\n" + models + "</world></sdf>\n"));
   }
   /// What refuses the world, or the start in it.
-  std::vector<common::Problem> refusalOf(const std::string& models, const StartConfig& start = {}) {
+  std::vector<common::Problem> refusalOf(const std::string& models, const StartConfig& start = {},
+                                         double hull_diameter_m = common::VehicleConfig().hull_diameter_m) {
     return problemsOf([&] {
       Scenario scenario;
       scenario.start = start;
+      scenario.vehicle.hull_diameter_m = hull_diameter_m;
       realize(loadModels(models), scenario);
     });
   }
@@ -99,6 +101,20 @@ TEST_F(WorldNumbers, AStartUnderATableIsRefusedForOneThatWillDo) {
   const auto problems = refusalOf(models, startAt(0.0, 0.0));
   EXPECT_THAT(problems, HasProblem("start.no-room", "", "`table/l`"));
   EXPECT_THAT(refusalOf(models, proposedIn(problems)), IsEmpty());
+}
+
+/// The ground beside the hull is higher than below it, by 3 cm below the wide hull of a Pelican; a post is not ground.
+TEST_F(WorldNumbers, AStartOnASlopeIsTakenIfNothingStandsOnIt) {
+  constexpr double kPelican_m = 0.7;
+  const std::string slope = model("slope", "<box><size>20 20 1</size></box>", "0 0 -0.5019 0 -0.0873 0");
+  const std::string post = model("post", "<box><size>0.05 0.05 0.6</size></box>", "0.37 0 0.2 0 0 0");
+  for (const double yaw_deg : {0.0, 20.0, 45.0}) {
+    StartConfig start = startAt(0.0, 0.0);
+    start.yaw_deg = yaw_deg;
+    EXPECT_THAT(refusalOf(slope, start), IsEmpty()) << yaw_deg;
+    EXPECT_THAT(refusalOf(slope, start, kPelican_m), IsEmpty()) << yaw_deg;
+    EXPECT_THAT(refusalOf(slope + post, start, kPelican_m), HasProblem("start.in-obstacle", "", "`post/l`")) << yaw_deg;
+  }
 }
 
 TEST_F(WorldNumbers, AStartInTheWallOfARoomIsMovedIntoTheRoom) {
