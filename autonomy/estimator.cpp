@@ -271,7 +271,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     }
     if (taken == Insertion::kUnknownReference) return space_.forgetClone();
   }
-  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after));
+  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after, perception::OdometrySource::kVision));
 }
 
 /// The poses at the time of the frame are known when it arrives.

@@ -24,8 +24,6 @@ namespace swiftlet::perception {
 
 /// `best` is the paper's rule. With `all`, ours, the filter weighs both by their covariances.
 enum class OdometryRule { kAll, kBest };
-enum class OdometrySource { kLaser, kVision };
-inline constexpr std::size_t kOdometrySources = 2;
 const char* toString(OdometrySource source);
 
 /// The standard deviation of a relative pose, by which sensors are compared: that of the horizontal position along its
