@@ -240,6 +240,7 @@ void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Ti
   fuse(altitude, outcome.scan.stamp);
   if (!altitude.below_m) return;
   outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
+  space_.addBeams(stamp, *altitude.below_m, T_odom_bodyAt(outcome.scan).rotation);
   seen_.height = now;
 }
 

@@ -59,6 +59,10 @@ class SpaceSensors {
   common::CameraEstimate camera() const { return rgbd_->camera(); }
   /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
+  /// What the beams down measured, for a stereo camera; see StereoScale::addBeams.
+  void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
+    if (stereo_) stereo_->addBeams(stamp, below_m, R_level_body);
+  }
   /// See CameraSteps::forgetClone.
   void forgetClone();
   /// Something contradicted the camera then: its measurements are not used for kCameraDoubted_s.
