@@ -97,7 +97,7 @@ Message StereoPipeline::missingOf(const Outcome& outcome, Time delivered) {
 
 void StereoPipeline::warnOnce(const char* what, const Message& fault, Time now) {
   if (faults_.insert(std::string(fault.name())).second)
-    log_.warn(now, kStereo, what, fault.text() + "; further ones are only counted");
+    log_.warn(now, kStereo, what, fault.text() + "; it is said once");
 }
 
 void StereoPipeline::report(const Message& missing, Time now) {
