@@ -41,7 +41,10 @@ std::optional<OdometrySwitch> OdometryChoice::measured(OdometrySource source, do
   if (rule_ == OdometryRule::kAll) return std::nullopt;
   const OdometrySource other = used_ == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
   const double used_m = presentDeviation_m(used_, now), other_m = presentDeviation_m(other, now);
-  if (!std::isfinite(other_m) || other_m >= kClearlyBetter * used_m) return std::nullopt;
+  const bool better = std::isfinite(other_m) && other_m < kClearlyBetter * used_m;
+  other_better_.update(better, now);
+  if (!better || (std::isfinite(used_m) && !other_better_.active())) return std::nullopt;
+  other_better_.reset();
   const OdometrySwitch change{used_, other, used_m, other_m};
   used_ = other;
   return change;
