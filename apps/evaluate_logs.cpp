@@ -25,6 +25,7 @@ namespace {
 struct LogsOptions {
   std::string out, part = "all", datasets, system = "laser_log";
   std::vector<std::string> only;
+  bool variations = false;
   int jobs = 1;
 };
 
@@ -48,7 +49,7 @@ std::vector<SharedLog> chosen(const LogsOptions& options) {
 
 int evaluateLogs(const LogsOptions& options) {
   if (!options.out.empty()) checkLogPage(options.out);
-  const std::vector<LogRun> runs = logRuns(chosen(options));
+  const std::vector<LogRun> runs = logRuns(chosen(options), options.variations);
   (void)flight::loadSystem(options.system);
   std::vector<LogOutcome> outcomes(runs.size());
   const auto begin = flight::Clock::now();
@@ -80,6 +81,8 @@ void addEvaluateLogs(Command& evaluate) {
                  "Page (Markdown) to put the table into, the rest of which stays; made if not there.");
   command.choice("--part", options->part, {"all", "short"}, "short: less than a minute, the part that a test maps.");
   command.option("--log", options->only, "Only the logs with this name.");
+  command.flag("--variations", options->variations,
+               "Map each log in six made-up variations of it instead, to see whether wrong maps are doubted.");
   command.option("--jobs", options->jobs, {1, 64}, "Maps that are made at the same time.");
   command.option("--datasets", options->datasets,
                  "Folder of the data sets; $SWIFTLET_DATASETS or ../shared/datasets when not given.");

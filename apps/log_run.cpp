@@ -20,24 +20,29 @@ namespace {
 
 using common::Time;
 
-/// The scans of the part that is mapped, in the order of the log.
-std::vector<interfaces::LoggedScan> scansOf(const SharedLog& shared) {
+/// The scans of the part that is mapped, in the order of the log. Where the reference is in the log itself, whose
+/// stamps may be useless, they are known by their place in it.
+KnownScans scansOf(const SharedLog& shared) {
   const auto reader = interfaces::openLaserLog(shared.log, {});
-  std::vector<interfaces::LoggedScan> scans;
+  KnownScans scans;
   const auto most = static_cast<std::size_t>(shared.scans);
   while (most == 0 || scans.size() < most) {
     auto logged = reader->next();
     if (!logged) break;
-    scans.push_back(std::move(*logged));
+    const Time stamp = logged->scan.stamps.measured;
+    const Time known_as = shared.poses_in_log ? Time::fromSeconds(static_cast<double>(scans.size())) : stamp;
+    scans.push_back({std::move(*logged), known_as});
   }
+  if (scans.empty())
+    throw common::InputError({shared.log}, "", common::Message("laser-log.no-scans", "no scan in it could be read"));
   return scans;
 }
 
 /// The log as if time ran the other way: its last beam comes first.
-std::vector<interfaces::LoggedScan> reversed(std::vector<interfaces::LoggedScan> scans) {
-  const Time first = scans.front().scan.stamps.measured, last = scans.back().scan.stamps.measured;
-  for (interfaces::LoggedScan& logged : scans) {
-    common::LaserScan& scan = logged.scan;
+KnownScans reversed(KnownScans scans) {
+  const Time first = scans.front().logged.scan.stamps.measured, last = scans.back().logged.scan.stamps.measured;
+  for (KnownScan& known : scans) {
+    common::LaserScan& scan = known.logged.scan;
     const Time last_beam = scan.stamps.measured + perception::sweepTime(scan);
     scan.stamps.measured = scan.stamps.arrived = first + (last - last_beam);
     scan.time_increment = common::Duration() - scan.time_increment;
@@ -49,10 +54,10 @@ std::vector<interfaces::LoggedScan> reversed(std::vector<interfaces::LoggedScan>
 /// Gives scans that were read before as a log.
 class ScansAsLog : public interfaces::LaserLog {
  public:
-  explicit ScansAsLog(std::vector<interfaces::LoggedScan> scans) : scans_(std::move(scans)) {}
+  explicit ScansAsLog(const KnownScans& scans) : scans_(scans) {}
   std::optional<interfaces::LoggedScan> next() override {
     if (counts_.scans == scans_.size()) return std::nullopt;
-    return scans_[counts_.scans++];
+    return scans_[counts_.scans++].logged;
   }
   const interfaces::LaserLogCounts& counts() const override { return counts_; }
   double progress() const override {
@@ -62,18 +67,15 @@ class ScansAsLog : public interfaces::LaserLog {
   std::vector<std::string> notes() const override { return {}; }
 
  private:
-  std::vector<interfaces::LoggedScan> scans_;
+  const KnownScans& scans_;
   interfaces::LaserLogCounts counts_;
 };
 
-/// A scan of a part by its place in the log: stamps may be useless where the reference is in the log itself.
-Time numbered(std::size_t index) { return Time::fromSeconds(static_cast<double>(index)); }
-
-common::Trajectory referenceOf(const SharedLog& log, const std::vector<interfaces::LoggedScan>& scans) {
+common::Trajectory referenceOf(const SharedLog& log, const KnownScans& scans) {
   if (!log.poses_in_log) return common::ordered(interfaces::readPoses(log.poses)).trajectory;
   common::Trajectory poses;
-  for (std::size_t i = 0; i < scans.size(); ++i)
-    if (scans[i].T_odom_robot) poses.push_back({numbered(i), common::lifted(*scans[i].T_odom_robot, 0.0)});
+  for (const KnownScan& scan : scans)
+    if (scan.logged.T_odom_robot) poses.push_back({scan.known_as, common::lifted(*scan.logged.T_odom_robot, 0.0)});
   return poses;
 }
 
@@ -105,27 +107,29 @@ void compareWithPoses(const common::Trajectory& reference, const common::Traject
 
 }  // namespace
 
-std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs) {
+std::string LogRun::part() const { return log.part() + (variation ? ", " + variation->name : ""); }
+
+std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs, bool in_variations) {
+  std::vector<std::optional<LogVariation>> variations{std::nullopt};
+  if (in_variations) variations.assign(logVariations().begin(), logVariations().end());
   std::vector<LogRun> runs;
   for (const SharedLog& log : logs)
-    for (const bool backwards : {false, true}) {
-      if (log.wheels) runs.push_back({log, backwards, true});
-      runs.push_back({log, backwards, false});
-    }
+    for (const auto& variation : variations)
+      for (const bool backwards : {false, true}) {
+        if (log.wheels) runs.push_back({log, backwards, true, variation});
+        runs.push_back({log, backwards, false, variation});
+      }
   return runs;
 }
 
 LogOutcome mapped(const LogRun& run, const std::string& system) {
-  const std::vector<interfaces::LoggedScan> scans = scansOf(run.log);
-  if (scans.empty())
-    throw common::InputError({run.log.log}, "", common::Message("laser-log.no-scans", "no scan in it could be read"));
+  const KnownScans recorded = scansOf(run.log);
+  KnownScans scans = run.backwards ? reversed(recorded) : recorded;
+  if (run.variation) scans = varied(std::move(scans), *run.variation);
   const double begin_s = 1e-3 * flight::processorMs();
   LogMapping mapping(flight::laserSlamOf(flight::loadSystem(system)));
-  RecordedLog log(std::make_unique<ScansAsLog>(run.backwards ? reversed(scans) : scans), run.log.log, run.wheels);
-  while (const auto logged = log.next()) {
-    const std::size_t index = run.backwards ? scans.size() - log.scans() : log.scans() - 1;
-    (void)mapping.add(run.log.poses_in_log ? numbered(index) : scans[index].scan.stamps.measured, log.inputOf(*logged));
-  }
+  RecordedLog log(std::make_unique<ScansAsLog>(scans), run.log.log, run.wheels);
+  while (const auto logged = log.next()) (void)mapping.add(scans[log.scans() - 1].known_as, log.inputOf(*logged));
   mapping.finish();
   LogOutcome outcome;
   outcome.processor_s = 1e-3 * flight::processorMs() - begin_s;
@@ -137,7 +141,7 @@ LogOutcome mapped(const LogRun& run, const std::string& system) {
   if (run.log.isJudgedByEye()) return outcome;
   const common::Trajectory track = mapping.trajectory();
   if (run.log.relations.empty())
-    compareWithPoses(referenceOf(run.log, scans), track, outcome);
+    compareWithPoses(referenceOf(run.log, recorded), track, outcome);
   else
     compareWithRelations(run.log, track, outcome);
   return outcome;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/log_mapping.hpp"
+#include "apps/log_variations.hpp"
 #include "apps/shared_logs.hpp"
 
 namespace swiftlet::apps {
@@ -15,10 +16,15 @@ struct LogRun {
   SharedLog log;
   bool backwards = false;  ///< From the last scan to the first, with the same intervals.
   bool wheels = false;     ///< With the odometry of the log.
+  std::optional<LogVariation> variation;
+
+  /// "whole", or "first 800 scans, every second scan".
+  std::string part() const;
 };
 
-/// All ways to map the logs: forwards and backwards, with and without the odometry of wheels where there is one.
-std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs);
+/// All ways to map the logs: forwards and backwards, with and without the odometry of wheels where there is one; as
+/// they were recorded, or in each variation instead.
+std::vector<LogRun> logRuns(const std::vector<SharedLog>& logs, bool in_variations);
 
 enum class MapVerdict { kRight, kWrong, kByEye };
 

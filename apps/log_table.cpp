@@ -28,7 +28,7 @@ std::string wordFor(MapVerdict verdict) {
 
 std::vector<common::TableCell> rowOf(const LogRun& run, const LogOutcome& outcome) {
   return {{run.log.name},
-          {run.log.part()},
+          {run.part()},
           {run.backwards ? "back" : "on"},
           {run.wheels ? "yes" : "no"},
           {errorText(outcome.relations_mean_m)},
@@ -44,12 +44,36 @@ std::vector<common::TableCell> rowOf(const LogRun& run, const LogOutcome& outcom
           {outcome.trust.trusted ? "" : outcome.trust.reason}};
 }
 
+std::ptrdiff_t countOf(const std::vector<LogOutcome>& outcomes, MapVerdict verdict, bool trusted) {
+  return std::count_if(outcomes.begin(), outcomes.end(), [&](const LogOutcome& outcome) {
+    return outcome.verdict == verdict && outcome.trust.trusted == trusted;
+  });
+}
+
+/// How many maps of each log, in the order of the runs, are right or wrong, and trusted or not.
+std::string confusionTable(const std::vector<LogRun>& runs, const std::vector<LogOutcome>& outcomes) {
+  common::Table table{
+      "", {"log", "right, trusted", "right, doubted", "wrong, trusted", "wrong, doubted", "by eye"}, {}};
+  for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+    while (end < runs.size() && runs[end].log.name == runs[begin].log.name) ++end;
+    const std::vector<LogOutcome> some(outcomes.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       outcomes.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto cell = [&](MapVerdict verdict, bool trusted) {
+      return common::TableCell{fmt::format("{}", countOf(some, verdict, trusted))};
+    };
+    table.rows.push_back(
+        {{runs[begin].log.name},
+         cell(MapVerdict::kRight, true),
+         cell(MapVerdict::kRight, false),
+         cell(MapVerdict::kWrong, true),
+         cell(MapVerdict::kWrong, false),
+         {fmt::format("{}", countOf(some, MapVerdict::kByEye, true) + countOf(some, MapVerdict::kByEye, false))}});
+  }
+  return markdownOf(table);
+}
+
 std::string countedAs(const std::vector<LogOutcome>& outcomes) {
-  const auto count = [&](MapVerdict verdict, bool trusted) {
-    return std::count_if(outcomes.begin(), outcomes.end(), [&](const LogOutcome& outcome) {
-      return outcome.verdict == verdict && outcome.trust.trusted == trusted;
-    });
-  };
+  const auto count = [&](MapVerdict verdict, bool trusted) { return countOf(outcomes, verdict, trusted); };
   double processor_s = 0.0;
   for (const LogOutcome& outcome : outcomes) processor_s += outcome.processor_s;
   const auto right_doubted = count(MapVerdict::kRight, false), wrong_trusted = count(MapVerdict::kWrong, true);
@@ -74,7 +98,7 @@ std::string logTable(const std::vector<LogRun>& runs, const std::vector<LogOutco
                        "violation", "contradictions", "lost", "s", "doubted because"},
                       {}};
   for (std::size_t i = 0; i < runs.size(); ++i) table.rows.push_back(rowOf(runs[i], outcomes[i]));
-  return markdownOf(table) + "\n" + countedAs(outcomes);
+  return markdownOf(table) + "\n" + confusionTable(runs, outcomes) + "\n" + countedAs(outcomes);
 }
 
 void checkLogPage(const fs::path& page) {

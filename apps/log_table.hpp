@@ -9,8 +9,8 @@
 
 namespace swiftlet::apps {
 
-/// A row for each run, and a line that counts the maps that are wrong and trusted, and right and doubted. `outcomes` is
-/// as long as `runs`.
+/// A row for each run, a table that counts for each log the maps that are right or wrong and trusted or doubted, and a
+/// line with their sums. `outcomes` is as long as `runs`, in which the runs of a log follow one another.
 std::string logTable(const std::vector<LogRun>& runs, const std::vector<LogOutcome>& outcomes);
 
 /// Throws common::InputError if the page exists and has no place for the table, or it cannot be written. Call it

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "interfaces/rgbd/rgbd_recorder.hpp"
-#include "tests/commands/laser_walk.hpp"
 #include "tests/rgbd_odometry/textured_room.hpp"
 #include "tests/rgbd_odometry/walk.hpp"
 #include "tests/support/program.hpp"
@@ -25,12 +24,6 @@ TEST(Benchmarks, OfRandomFloors) {
 }
 
 using RecordedBenchmarks = test_support::Scratch;
-
-TEST_F(RecordedBenchmarks, VariationsOfALog) {
-  const ProgramEnd end = runProgram("benchmark_variations", {write("walk.log", commands::walk(40))});
-  EXPECT_EQ(end.exit_code, 0) << describe(end);
-  EXPECT_THAT(end.out, HasSubstr("40 scans"));
-}
 
 /// A camera that walks through a room, slowly, and its true poses.
 void record(const std::filesystem::path& folder, double frames_Hz, double reference_Hz, double reference_late_s) {

@@ -36,12 +36,13 @@ std::vector<std::string> cellsOf(const std::string& line) {
   return cells;
 }
 
-/// By log, part, way and wheels.
+/// Of the first table, by log, part, way and wheels.
 std::map<std::string, Row> rowsOf(const std::string& text) {
   std::map<std::string, Row> rows;
   std::vector<std::string> columns;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
+    if (!columns.empty() && line.empty()) break;
     if (!line.starts_with("| ") || line.starts_with("| ---")) continue;
     const std::vector<std::string> cells = cellsOf(line);
     if (columns.empty()) {
@@ -108,6 +109,22 @@ TEST_F(EvaluateLogs, ThePageKeepsWhatIsNotTheTable) {
   EXPECT_EQ(end.exit_code, 2) << describe(end);
   EXPECT_THAT(end.err, HasSubstr("has no place for the results"));
   EXPECT_EQ(readText(path("other.md")), "Mine.\n");
+}
+
+/// Each variation is mapped from scans of its own, and compared with the poses that the scans were recorded at.
+TEST_F(EvaluateLogs, MapsVariationsToo) {
+  if (!test_support::dataSet("01-laser-slam")) return;
+  const ProgramEnd end = runSwiftlet({"evaluate", "logs", "--part", "short", "--log", "edmonton", "--variations",
+                                      "--datasets", test_support::dataSetsFolder().string()});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const auto rows = rowsOf(end.out);
+  ASSERT_EQ(rows.size(), 12U) << end.out;
+  for (const auto& [name, row] : rows) EXPECT_NE(row.at("ATE RMS m"), "") << name;
+  const std::string on = ", on, wheels: no", first = "edmonton, first 120 scans, ";
+  const Row &stamped = rows.at(first + "growing stamps" + on), &later = rows.at(first + "from the 38th scan on" + on);
+  EXPECT_LT(std::stod(later.at("path m")), std::stod(stamped.at("path m")));
+  EXPECT_THAT(end.out, HasSubstr("| edmonton | "));
+  EXPECT_THAT(end.out, HasSubstr("12 maps in "));
 }
 
 TEST_F(EvaluateLogs, RefusesWhatIsNotThere) {
