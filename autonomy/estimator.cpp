@@ -22,6 +22,8 @@ namespace {
 
 /// Several frames of a slow camera.
 constexpr double kCameraSaw_s = 0.3;
+/// Two pairs at 3 Hz, the slowest that is flown: for so long the filter carries the position from the last one.
+constexpr double kStereoPlaces_s = 0.7;
 
 }  // namespace
 
@@ -124,13 +126,17 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
-  const Eigen::Matrix3d step_covariance = uncertainty_.ofStep(odometry, outcome.matched, T_odom_body);
+  const bool knows_motion = outcome.matched && !odometry.interrupted;
+  const bool by_stereo = !knows_motion && isPlacedByStereo(now);
+  const Eigen::Matrix3d step_covariance =
+      by_stereo ? uncertainty_.ofMotion(T_odom_body) : uncertainty_.ofStep(odometry, outcome.matched, T_odom_body);
   localize({standing, T_odom_body, step_covariance, withheld, odometry.interrupted}, now);
 
   measureHeight(outcome, T_odom_body, now);
 
-  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
-  if (outcome.matched) outcome.T_map_body = map.T_map_body;
+  const bool placed = outcome.matched || by_stereo;
+  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
+  if (placed) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
   poses_.scanned(outcome.scan.stamp, map.at_key, T_odom_bodyAt(outcome.scan));
   outcome.drift_m = uncertainty_.add(odometry, outcome.matched, T_odom_body, map);
@@ -192,6 +198,12 @@ perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedSc
 /// Whether a scan is withheld from the odometry, so that it can weigh particles.
 bool Estimator::isWithheld(const perception::ProjectedScan& scan) {
   return localizer_ && flown_.at_flight_height && localizer_->wantsScan(planar(scan.T_odom_body));
+}
+
+/// Whether a scan that does not match is nevertheless drawn where the vehicle is. Where daylight blinds the laser, what
+/// beams cross without return is all that is known to be free.
+bool Estimator::isPlacedByStereo(Time now) const {
+  return seen_.by_stereo && (now - *seen_.by_stereo).seconds() <= kStereoPlaces_s;
 }
 
 OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
@@ -268,6 +280,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_->state());
       if (support.horizontal) seen_.position = now;
+      if (support.horizontal && space_.hasStereo()) seen_.by_stereo = now;
       if (support.vertical) seen_.height = now;
     }
     if (taken == Insertion::kUnknownReference) return space_.forgetClone();

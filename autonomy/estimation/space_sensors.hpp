@@ -55,6 +55,7 @@ class SpaceSensors {
   void add(std::shared_ptr<const common::VerticalScan> sweep);
 
   bool hasCamera() const { return rgbd_ || stereo_; }
+  bool hasStereo() const { return stereo_ != nullptr; }
   /// Mount and clock; only with an RGB-D camera.
   common::CameraEstimate camera() const { return rgbd_->camera(); }
   /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
