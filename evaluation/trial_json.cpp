@@ -73,10 +73,10 @@ ordered_json eventsJson(const FlightScore& flight) {
   ordered_json json = ordered_json::array();
   for (const EventOrderScore& order : flight.event_orders)
     for (const PlacedEvent& came : order.came)
-      json.push_back(
-          {{"event", came.text},
-           {"time_s", orNull(came.stamp.seconds())},
-           {"place_map_m", {orNull(came.place_map_m.x()), orNull(came.place_map_m.y()), orNull(came.place_map_m.z())}}});
+      json.push_back({{"event", came.text},
+                      {"time_s", orNull(came.stamp.seconds())},
+                      {"place_map_m",
+                       {orNull(came.place_map_m.x()), orNull(came.place_map_m.y()), orNull(came.place_map_m.z())}}});
   return json;
 }
 

@@ -11,10 +11,9 @@ namespace swiftlet::simulation {
 namespace {
 
 /// In the order of FaultKind.
-const std::vector<std::string> kKinds{"silent",  "nan",        "repeat",     "late",        "stuck",
-                                      "bias",    "mirror",     "blocked",    "black",       "white",
-                                      "flipped", "other_size", "exchanged",  "one_sided",   "clock_jump",
-                                      "clock_drift", "lost_cell"};
+const std::vector<std::string> kKinds{"silent",    "nan",       "repeat",     "late",        "stuck",    "bias",
+                                      "mirror",    "blocked",   "black",      "white",       "flipped",  "other_size",
+                                      "exchanged", "one_sided", "clock_jump", "clock_drift", "lost_cell"};
 
 using common::Message;
 
@@ -54,7 +53,8 @@ void FaultConfig::describe(common::config::Fields& fields) {
   fields.choice(
       "kind", kind, kKinds,
       "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, black, white, flipped "
-      "and other_size for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell for the "
+      "and other_size for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell for "
+      "the "
       "battery.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
   fields("to_s", to_s, {0, 1e6},

@@ -24,8 +24,7 @@ Eigen::Matrix3d StepUncertainty::grown(const common::Pose2& T_odom_body, const E
   const common::SymmetricEigen<3> change = common::symmetricEigen(Eigen::Matrix3d(covariance_odom - covariance_odom_));
   covariance_odom_ = covariance_odom;
   unobservable_odom_.reset();
-  const Eigen::Matrix3d growth =
-      change.vectors * change.values.cwiseMax(0.0).asDiagonal() * change.vectors.transpose();
+  const Eigen::Matrix3d growth = change.vectors * change.values.cwiseMax(0.0).asDiagonal() * change.vectors.transpose();
   return common::turned(growth, -T_odom_body.yaw_rad);
 }
 

@@ -32,8 +32,7 @@ void FilterState::clonePose(OdometrySource source) {
   if (clone_count == kMaxClones) {
     const auto own = std::count_if(clones.begin(), clones.end(),
                                    [source](const ClonedPose& clone) { return clone.source == source; });
-    const OdometrySource other =
-        source == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
+    const OdometrySource other = source == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
     dropClone(oldestClone(own >= kClonesOf[static_cast<std::size_t>(source)] ? source : other));
   }
   const int n = dimension();

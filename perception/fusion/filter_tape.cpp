@@ -189,8 +189,8 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::string_view name;
     std::size_t numbers;
   };
-  constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1},   {"predicted", 1}, {"clone", 1},
-                             {"clone3", 1}, {"pose", 16},  {"pose3", 30}, {"height", 3},    {"vertical", 10}};
+  constexpr Form kForms[] = {{"imu", 12},   {"start", 1}, {"rest", 1},   {"predicted", 1}, {"clone", 1},
+                             {"clone3", 1}, {"pose", 16}, {"pose3", 30}, {"height", 3},    {"vertical", 10}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {

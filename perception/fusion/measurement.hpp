@@ -20,8 +20,8 @@ struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
   OdometrySource source = OdometrySource::kLaser;  ///< kClone: whose reference it is.
-  common::Time from;   ///< Of a relative pose: time of the cloned reference.
-  common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
+  common::Time from;                               ///< Of a relative pose: time of the cloned reference.
+  common::Pose2 pose;                              ///< kRelativePose, kAbsolutePose.
   /// kRelativePose: change of the pose, along the axes of the level frame at `from`.
   std::optional<common::UnobservableMotion> unobservable_motion;
   double value = 0;                                                               ///< kHeight: m.

@@ -8,6 +8,8 @@
 //   laser  ------------------------------------------------------------------>  vision
 //          <------------------------------------------------------------------
 //            laser clearly better for a while, or vision measures nothing
+//
+// A sensor measures nothing when it says so in two turns, or falls silent.
 #pragma once
 
 #include <array>

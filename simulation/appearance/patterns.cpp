@@ -189,8 +189,8 @@ void drawLawn(Canvas& canvas) {
 }  // namespace
 
 const std::vector<std::string>& patternWords() {
-  static const std::vector<std::string> kWords{"blank", "plaster", "wood", "brick", "carpet", "tiles", "posters",
-                                               "lawn"};
+  static const std::vector<std::string> kWords{"blank",  "plaster", "wood",    "brick",
+                                               "carpet", "tiles",   "posters", "lawn"};
   return kWords;
 }
 

@@ -12,8 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const EventOrderConfig kUpAndDown{
-    "lift", {{"lift up", {0.0, 0.0, 0.5}, {1.0, 1.0, 1.5}}, {"lift down", {}, {}}}};
+const EventOrderConfig kUpAndDown{"lift", {{"lift up", {0.0, 0.0, 0.5}, {1.0, 1.0, 1.5}}, {"lift down", {}, {}}}};
 
 std::vector<std::string> missedBy(const std::vector<std::pair<std::string, Eigen::Vector3d>>& events) {
   EventOrderRecorder recorder(kUpAndDown);
