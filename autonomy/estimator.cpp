@@ -22,8 +22,6 @@ namespace {
 
 /// Several frames of a slow camera.
 constexpr double kCameraSaw_s = 0.3;
-/// Two pairs at 3 Hz, the slowest that is flown: for so long the filter carries the position from the last one.
-constexpr double kStereoPlaces_s = 0.7;
 
 }  // namespace
 
@@ -126,8 +124,10 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
+  // A scan that does not match is drawn where the stereo camera places it: where daylight blinds the laser, what beams
+  // cross without return is all that is known to be free.
   const bool knows_motion = outcome.matched && !odometry.interrupted;
-  const bool by_stereo = !knows_motion && isPlacedByStereo(now);
+  const bool by_stereo = !knows_motion && space_.isPlacedByStereo(now);
   const Eigen::Matrix3d step_covariance =
       by_stereo ? uncertainty_.ofMotion(T_odom_body) : uncertainty_.ofStep(odometry, outcome.matched, T_odom_body);
   localize({standing, T_odom_body, step_covariance, withheld, odometry.interrupted}, now);
@@ -198,12 +198,6 @@ perception::ProjectedScan Estimator::withoutPeople(const perception::ProjectedSc
 /// Whether a scan is withheld from the odometry, so that it can weigh particles.
 bool Estimator::isWithheld(const perception::ProjectedScan& scan) {
   return localizer_ && flown_.at_flight_height && localizer_->wantsScan(planar(scan.T_odom_body));
-}
-
-/// Whether a scan that does not match is nevertheless drawn where the vehicle is. Where daylight blinds the laser, what
-/// beams cross without return is all that is known to be free.
-bool Estimator::isPlacedByStereo(Time now) const {
-  return seen_.by_stereo && (now - *seen_.by_stereo).seconds() <= kStereoPlaces_s;
 }
 
 OdometryStep Estimator::match(const perception::ProjectedScan& scan) {
@@ -280,7 +274,7 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_->state());
       if (support.horizontal) seen_.position = now;
-      if (support.horizontal && space_.hasStereo()) seen_.by_stereo = now;
+      if (support.horizontal) space_.placedByStereo(now);
       if (support.vertical) seen_.height = now;
     }
     if (taken == Insertion::kUnknownReference) return space_.forgetClone();

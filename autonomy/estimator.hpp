@@ -153,7 +153,6 @@ class Estimator {
   /// When a sensor last measured each; time of processing, not of measuring.
   struct Seen {
     common::Time position, height;
-    std::optional<common::Time> by_stereo;  ///< The position, by pairs that the filter was told.
   };
 
   void begin(const common::LaserScan& scan);
@@ -161,7 +160,6 @@ class Estimator {
   perception::ProjectedScan withoutPeople(const perception::ProjectedScan& scan, common::Time measured) const;
   void measureHeight(ScanOutcome& outcome, const common::Pose2& T_odom_body, common::Time now);
   bool isWithheld(const perception::ProjectedScan& scan);
-  bool isPlacedByStereo(common::Time now) const;
   OdometryStep match(const perception::ProjectedScan& scan);
   bool fuse(const OdometryStep& step, common::Time now);
   void fuse(const AltitudeStep& step, common::Time stamp);
