@@ -121,7 +121,7 @@ WorldModel yardAndPorch() {
   WorldModel world;
   world.shapes = {boxShape("ahead", {2.0, -6.0, 0.0}, {2.2, 6.0, 3.0}),
                   boxShape("behind", {-2.2, -6.0, 0.0}, {-2.0, 6.0, 3.0}),
-                  boxShape("roof", {-6.0, -6.0, 3.0}, {0.0, 6.0, 3.1})};
+                  boxShape("roof", {-6.0, -6.0, 2.0}, {0.0, 6.0, 2.1})};
   for (Shape& shape : world.shapes) shape.color = Color::Constant(0.64F);
   return world;
 }
