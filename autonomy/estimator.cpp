@@ -124,13 +124,19 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));
   outcome.T_map_body = map_.T_map_odom() * T_odom_body;
-  const Eigen::Matrix3d step_covariance = uncertainty_.ofStep(odometry, outcome.matched, T_odom_body);
+  // A scan that does not match is drawn where the stereo camera places it: where daylight blinds the laser, what beams
+  // cross without return is all that is known to be free.
+  const bool knows_motion = outcome.matched && !odometry.interrupted;
+  const bool by_stereo = !knows_motion && space_.isPlacedByStereo(now);
+  const Eigen::Matrix3d step_covariance =
+      by_stereo ? uncertainty_.ofMotion(T_odom_body) : uncertainty_.ofStep(odometry, outcome.matched, T_odom_body);
   localize({standing, T_odom_body, step_covariance, withheld, odometry.interrupted}, now);
 
   measureHeight(outcome, T_odom_body, now);
 
-  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
-  if (outcome.matched) outcome.T_map_body = map.T_map_body;
+  const bool placed = outcome.matched || by_stereo;
+  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
+  if (placed) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
   poses_.scanned(outcome.scan.stamp, map.at_key, T_odom_bodyAt(outcome.scan));
   outcome.drift_m = uncertainty_.add(odometry, outcome.matched, T_odom_body, map);
@@ -240,6 +246,7 @@ void Estimator::measureHeight(ScanOutcome& outcome, const Pose2& T_odom_body, Ti
   fuse(altitude, outcome.scan.stamp);
   if (!altitude.below_m) return;
   outcome.raw_height = control::RawHeight{outcome.scan.stamp, *altitude.below_m};
+  space_.addBeams(stamp, *altitude.below_m, T_odom_bodyAt(outcome.scan).rotation);
   seen_.height = now;
 }
 
@@ -267,11 +274,12 @@ void Estimator::fuse(const CameraStep& step, Time now) {
     if (taken == Insertion::kTaken) {
       const CameraSupport support = supportOf(filter_->state());
       if (support.horizontal) seen_.position = now;
+      if (support.horizontal) space_.placedByStereo(now);
       if (support.vertical) seen_.height = now;
     }
     if (taken == Insertion::kUnknownReference) return space_.forgetClone();
   }
-  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after));
+  if (step.clone_after) filter_.tell(perception::poseClone(*step.clone_after, perception::OdometrySource::kVision));
 }
 
 /// The poses at the time of the frame are known when it arrives.

@@ -72,6 +72,8 @@ void judgeEnding(const FlightScore& flight, const Criteria& criteria, std::vecto
 void judgeSteps(const FlightScore& flight, std::vector<std::string>& failures) {
   for (const PhaseScore& phase : flight.phases)
     for (std::string& failure : phase.missed()) failures.push_back(std::move(failure));
+  for (const EventOrderScore& order : flight.event_orders)
+    for (std::string& failure : order.missed()) failures.push_back("order of events: " + failure);
   for (const OperatorAnswer& answer : flight.operator_answers)
     if (std::string failure = answer.failure(); !failure.empty()) failures.push_back(std::move(failure));
 }

@@ -121,6 +121,11 @@ Figures estimateRows() {
           median("estimate_rms_median_m", always(column("RMS median (m)")),
                  atMost("estimate_rms_median_max_m", "estimate RMS median, m",
                         "Greatest median of all flights' RMS errors."))),
+      row("end_error_share", column("end err / path", 4),
+          median("end_error_share_median", column("end err / path", 4),
+                 atMost("end_error_share_median_max", "error at the end over the path, median",
+                        "Greatest median of all flights' horizontal errors of the estimate at the end, as shares of "
+                        "the flown paths."))),
       row("estimate_spatial_rms_m", atMost("estimate_spatial_rms_max_m", "estimate RMS in space, m",
                                            "Greatest RMS of the estimate's error in space, the height's included.")),
       row("height_error_m",

@@ -32,6 +32,15 @@ void FlightRecorder::watch(const std::vector<PhaseConfig>& phases) {
   for (const PhaseConfig& phase : phases) phases_.emplace_back(phase);
 }
 
+void FlightRecorder::watchEvents(const std::vector<EventOrderConfig>& orders) {
+  for (const EventOrderConfig& order : orders) event_orders_.emplace_back(order);
+}
+
+void FlightRecorder::event(const common::Event& event) {
+  const Eigen::Vector3d place_map_m = record_.estimate.truthInMap(record_.last_truth.T_world_body).position_m;
+  for (EventOrderRecorder& order : event_orders_) order.event(event, place_map_m);
+}
+
 void FlightRecorder::tickPhases(const simulation::Truth& truth, const common::VehicleState& estimate,
                                 const std::optional<Eigen::Vector3d>& reference_odom_m) {
   const PhaseTick tick{truth.stamp, record_.estimate.truthInMap(truth.T_world_body),
@@ -116,6 +125,7 @@ FlightRecord FlightRecorder::finish() const {
   record.contact = contact_.finish();
   record.motors_off = contact_.motorsOff();
   for (const PhaseRecorder& phase : phases_) record.phases.push_back(phase.finish());
+  for (const EventOrderRecorder& order : event_orders_) record.event_orders.push_back(order.finish());
   if (!heights_world_m_.empty()) record.cruise_height_world_m = common::quantile(heights_world_m_, 0.5);
   return record;
 }

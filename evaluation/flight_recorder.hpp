@@ -21,6 +21,7 @@
 #include "evaluation/contact_recorder.hpp"
 #include "evaluation/ending_recorder.hpp"
 #include "evaluation/estimate_record.hpp"
+#include "evaluation/event_order.hpp"
 #include "evaluation/mission_record.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
@@ -63,6 +64,7 @@ struct FlightRecord {
   std::optional<ContactRecord> contact;  ///< The first that it did not mean.
   bool motors_off = true;                ///< At the end; also while a pilot has them.
   std::vector<PhaseScore> phases;
+  std::vector<EventOrderScore> event_orders;
   std::vector<OperatorAnswer> operator_answers;  ///< Of the trial's script; filled in by the flight.
   simulation::Truth last_truth;
   std::shared_ptr<const common::OccupancyGrid> map;     ///< The last map; null without one.
@@ -85,6 +87,8 @@ class FlightRecorder {
 
   /// Call before the first tick: the parts of the flight that have figures of their own.
   void watch(const std::vector<PhaseConfig>& phases);
+  /// Call before the first tick: the events whose order and places matter.
+  void watchEvents(const std::vector<EventOrderConfig>& orders);
   /// Call at every scan that arrives.
   void scan(const common::Stamps& stamps) { conduct_.scan(stamps); }
   /// Call before tick(): the true places of the people, the person to be followed first.
@@ -102,6 +106,8 @@ class FlightRecorder {
   void intent(common::Time now, const common::Intent& intent, const common::IntentStatus& status);
   /// Call when the operator or the pilot orders the end of the flight: landing, flying home, taking over.
   void order(common::Time now, std::string text) { ending_.order(now, std::move(text)); }
+  /// Call at every event, after the tick in which it came.
+  void event(const common::Event& event);
   /// Call at every snapshot.
   void world(const common::World& world);
 
@@ -120,6 +126,7 @@ class FlightRecorder {
   EndingRecorder ending_;
   ContactRecorder contact_;
   std::vector<PhaseRecorder> phases_;
+  std::vector<EventOrderRecorder> event_orders_;
   std::optional<common::Time> first_tick_;
   common::Time next_view_;
   std::vector<double> heights_world_m_;

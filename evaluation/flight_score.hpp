@@ -34,6 +34,7 @@ struct FlightScore {
   int interruptions = 0;
   int resumed = 0;
   std::vector<PhaseScore> phases;
+  std::vector<EventOrderScore> event_orders;
   std::vector<OperatorAnswer> operator_answers;
   common::MachineUse machine;
 

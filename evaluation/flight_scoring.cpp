@@ -179,10 +179,16 @@ FlightScore scoreOf(const FlightRecord& record, const TrueWorld& world, const Cr
   score.interruptions = record.mission.interruptions;
   score.resumed = record.mission.resumed;
   score.phases = record.phases;
+  score.event_orders = record.event_orders;
   score.operator_answers = record.operator_answers;
   score.machine = machine;
   measureGoals(record, score);
   measureEstimate(record.estimate, score);
+  if (record.true_distance_m > 0) {
+    const ComparedEstimate& end = record.estimate.newest();
+    score["end_error_share"] =
+        (end.T_map_body.position_m() - end.T_map_truth.position_m()).norm() / record.true_distance_m;
+  }
   measureCollision(record, score);
   measureMap(record, world, score);
   measureMap3d(record, world, score);

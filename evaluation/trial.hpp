@@ -9,6 +9,7 @@
 #include "common/config_fwd.hpp"
 #include "common/error.hpp"
 #include "evaluation/criteria.hpp"
+#include "evaluation/event_order.hpp"
 #include "evaluation/flight_score.hpp"
 #include "evaluation/operator_script.hpp"
 #include "evaluation/phase_metrics.hpp"
@@ -64,6 +65,7 @@ struct TrialConfig {
   TrialMap map;
   std::vector<OperatorStep> operator_steps;
   std::vector<PhaseConfig> phases;
+  std::vector<EventOrderConfig> event_orders = {};
   std::vector<SystemBounds> asked_of;
   std::vector<TrialTarget> targets;
   simulation::Scenario scenario;

@@ -69,6 +69,17 @@ ordered_json operatorJson(const FlightScore& flight) {
   return json;
 }
 
+ordered_json eventsJson(const FlightScore& flight) {
+  ordered_json json = ordered_json::array();
+  for (const EventOrderScore& order : flight.event_orders)
+    for (const PlacedEvent& came : order.came)
+      json.push_back({{"event", came.text},
+                      {"time_s", orNull(came.stamp.seconds())},
+                      {"place_map_m",
+                       {orNull(came.place_map_m.x()), orNull(came.place_map_m.y()), orNull(came.place_map_m.z())}}});
+  return json;
+}
+
 /// What only some flights have.
 void addParts(const FlightScore& flight, ordered_json& json) {
   if (flight.figure("map3d_points")) json["map3d"] = objectOf(kMap3d, flight);
@@ -76,6 +87,7 @@ void addParts(const FlightScore& flight, ordered_json& json) {
   if (flight.figure("visual_odometry_lost_share")) json["visual_odometry"] = objectOf(kVisualOdometry, flight);
   if (flight.machine.memory_peak_MB) json["machine"] = objectOf(kMachine, flight);
   if (!flight.phases.empty()) json["phases"] = phasesJson(flight);
+  if (!flight.event_orders.empty()) json["events"] = eventsJson(flight);
   if (!flight.operator_answers.empty()) json["operator"] = operatorJson(flight);
 }
 

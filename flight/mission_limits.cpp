@@ -11,7 +11,7 @@
 namespace swiftlet::flight {
 
 double unseenBelow_m(const System& system) {
-  return system.rgbd_camera ? 0.0 : std::max(0.5 * system.vehicle.hull_height_m + system.laser.mount.z_m, 0.0);
+  return system.hasDepthCamera() ? 0.0 : std::max(0.5 * system.vehicle.hull_height_m + system.laser.mount.z_m, 0.0);
 }
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map) {

@@ -10,7 +10,7 @@
 
 namespace swiftlet::flight {
 
-/// How far the hull reaches below the plane of the laser, if no camera looks there; otherwise 0.
+/// How far the hull reaches below the plane of the laser, if no camera with depths looks there; otherwise 0.
 double unseenBelow_m(const System& system);
 
 behaviors::MissionLimits missionLimits(const System& system, bool has_map);

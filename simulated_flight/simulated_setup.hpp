@@ -26,6 +26,7 @@ struct SimulatedSetup : flight::FlightSetup {
   std::optional<common::Pose2> T_world_given = {};  ///< Of the given map, if it is known; for the score.
   std::vector<evaluation::OperatorStep> operator_steps = {};
   std::vector<evaluation::PhaseConfig> phases = {};
+  std::vector<evaluation::EventOrderConfig> event_orders = {};
   bool visual_odometry_alone = false;  ///< The RGB-D camera is tracked without any other sensor, too, for the score.
   double speed = 0.0;                  ///< Times real time; 0: as fast as the machine can.
   double time_limit_s = 1800.0;        ///< Of simulated time.

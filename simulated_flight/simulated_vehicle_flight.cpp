@@ -16,6 +16,7 @@ evaluation::FlightRecorder recorderOf(const SimulatedSetup& setup, const simulat
                                       evaluation::knowableFrame(T_world_map, vehicle.scenario().sensors.laser_errors),
                                       setup.T_world_given);
   recorder.watch(setup.phases);
+  recorder.watchEvents(setup.event_orders);
   return recorder;
 }
 

@@ -163,6 +163,7 @@ SimulatedSetup setupOf(const TrialConfig& trial, const PlacedMap& map, int seed,
   setup.time_limit_s = trial.time_limit_s;
   setup.operator_steps = trial.operator_steps;
   setup.phases = trial.phases;
+  setup.event_orders = trial.event_orders;
   setup.visual_odometry_alone = trial.visual_odometry_alone;
   setup.out = folder;
   return setup;

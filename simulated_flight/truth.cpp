@@ -40,6 +40,8 @@ void Truth::world(const WorldPtr& world) {
   vehicle_.tellPhase(evaluation::phaseWords(*world));
 }
 
+void Truth::event(const common::Event& event) { recorder_.event(event); }
+
 common::Pose3 Truth::T_map_body() const { return vehicle_.trueT_map_body(); }
 Eigen::Vector3d Truth::velocity_map_m_s() const {
   return vehicle_.T_world_map().rotation.conjugate() * vehicle_.truth().velocity_world_m_s;

@@ -26,6 +26,7 @@ class Truth final : public autonomy::FlightSink, public flight::MotionReference 
   void input(const autonomy::Input& input) override;
   void ticked(const autonomy::TickOutcome& outcome) override;
   void world(const std::shared_ptr<const common::World>& world) override;
+  void event(const common::Event& event) override;
 
   common::Pose3 T_map_body() const override;
   Eigen::Vector3d velocity_map_m_s() const override;

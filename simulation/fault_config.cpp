@@ -11,9 +11,9 @@ namespace swiftlet::simulation {
 namespace {
 
 /// In the order of FaultKind.
-const std::vector<std::string> kKinds{"silent",  "nan",        "repeat",     "late",        "stuck",
-                                      "bias",    "mirror",     "blocked",    "black",       "white",
-                                      "flipped", "other_size", "clock_jump", "clock_drift", "lost_cell"};
+const std::vector<std::string> kKinds{"silent",    "nan",       "repeat",     "late",        "stuck",    "bias",
+                                      "mirror",    "blocked",   "black",      "white",       "flipped",  "other_size",
+                                      "exchanged", "one_sided", "clock_jump", "clock_drift", "lost_cell"};
 
 using common::Message;
 
@@ -42,7 +42,7 @@ common::Validation timeProblems(const FaultConfig& fault) {
 
 bool isOfPictures(FaultKind kind) {
   return kind == FaultKind::kBlack || kind == FaultKind::kWhite || kind == FaultKind::kFlipped ||
-         kind == FaultKind::kOtherSize;
+         kind == FaultKind::kOtherSize || kind == FaultKind::kExchanged || kind == FaultKind::kOneSided;
 }
 
 bool isOfBattery(FaultKind kind) { return kind == FaultKind::kLostCell; }
@@ -53,7 +53,9 @@ void FaultConfig::describe(common::config::Fields& fields) {
   fields.choice(
       "kind", kind, kKinds,
       "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, black, white, flipped "
-      "and other_size for camera and rgbd, lost_cell for the battery.");
+      "and other_size for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell for "
+      "the "
+      "battery.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");
   fields("to_s", to_s, {0, 1e6},
          "Time at which the fault ends; after from_s. Not with place or phase, and not for kind lost_cell, which never "
@@ -91,7 +93,7 @@ std::vector<common::Problem> FaultConfig::validate() const {
       .require(!of_laser || sensor == Sensor::kLaser, "kind",
                Message("fault.of-laser", "mirror and blocked are faults of the laser alone"))
       .require(!isOfPictures(kind) || has_pictures, "kind",
-               Message("fault.of-pictures", "black, white, flipped and other_size are faults of camera and rgbd alone"))
+               Message("fault.of-pictures", "faults of pictures are faults of camera and rgbd alone"))
       .require(!isOfBattery(kind) || sensor == Sensor::kBattery, "kind",
                Message("fault.of-battery", "lost_cell is a fault of the battery alone"))
       .require(kind != FaultKind::kClockJump || jump_s != 0.0, "jump_s",

@@ -23,6 +23,8 @@ enum class FaultKind {
   kWhite,       ///< Of a camera: colours are white and nothing has depth, as in the sun.
   kFlipped,     ///< Of a camera: left and right of the pictures are exchanged.
   kOtherSize,   ///< Of a camera: pictures have half the width and half the height that they should have.
+  kExchanged,   ///< Of a stereo camera: the pictures of the left and of the right camera are exchanged.
+  kOneSided,    ///< Of a stereo camera: the right camera sends no picture.
   kClockJump,   ///< The clock that stamps the measurements is off by `jump_s`.
   kClockDrift,  ///< It gains `drift_s_s` in each second from the beginning of the fault on.
   kLostCell,    ///< Of the battery itself: one of its cells is short, from then on.

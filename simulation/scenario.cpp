@@ -208,6 +208,8 @@ void Scenario::describe(common::config::Fields& fields) {
   fields("model_paths", model_paths, "Folders that hold the models the world includes.");
   fields("allow_incomplete_world", allow_incomplete_world,
          "Whether a world is flown of which models, meshes or collisions are missing, without them.");
+  fields("indoor_light", indoor_light, {0, 1},
+         "Light for the onboard camera under a roof, as a share of that under the open sky; 1: the same everywhere.");
   fields.section("start", start, "Where the vehicle stands.");
   fields("battery_remaining", battery_remaining, {0.01, 1}, "Charge at the start, as a share of the full one.");
   fields.section("wind", wind, "Wind.");

@@ -137,6 +137,7 @@ struct Scenario {
   std::string world;
   std::vector<std::string> model_paths;
   bool allow_incomplete_world = false;
+  double indoor_light = 1.0;
   StartConfig start;
   double battery_remaining = 1.0;
   WindConfig wind;

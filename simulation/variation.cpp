@@ -71,6 +71,7 @@ Drawn drawOnce(const WorldModel& world, const PlacedVehicle& nominal, int draw) 
   const auto within = [&random](double most) { return random.uniform(-most, most); };
   Drawn drawn{nominal, world};
   drawn.redraws = draw;
+  drawn.world.indoor_light = static_cast<float>(scenario.indoor_light);
   StartConfig& start = drawn.scenario.start = nominalStart(world, scenario);
   start.x_m += within(variation.start_position_m);
   start.y_m += within(variation.start_position_m);

@@ -54,6 +54,7 @@ struct WorldModel {
   std::string file;
   std::vector<Shape> shapes;
   Color light = Color::Ones();  ///< Of the lamps: what cameras see of white under them.
+  float indoor_light = 1.0F;    ///< Share of it where no daylight falls, see inDaylight.
   /// The pose of `<frame name="start">`, if the world has one.
   std::optional<common::Pose3> T_world_start;
   /// The line of that frame in the file, or else of the world.

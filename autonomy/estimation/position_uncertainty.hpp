@@ -22,6 +22,8 @@ class PositionUncertainty {
   /// Covariance of the motion since the last scan, (x_m, y_m, yaw_rad) with the axes of the body; `matched`: the filter
   /// accepted the match.
   Eigen::Matrix3d ofStep(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body);
+  /// The same where another sensor than the laser measured it: by how much less certain the filter has become.
+  Eigen::Matrix3d ofMotion(const common::Pose2& T_odom_body) { return step_.grown(T_odom_body, planar()); }
   /// Adds the position by the scan, after it is in the map. Returns the drift.
   double add(const OdometryStep& step, bool matched, const common::Pose2& T_odom_body, const MapStep& map);
   /// See DriftMonitor; as of the last scan that was matched or tried.

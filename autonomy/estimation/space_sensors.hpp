@@ -59,6 +59,10 @@ class SpaceSensors {
   common::CameraEstimate camera() const { return rgbd_->camera(); }
   /// The measurement of the camera for the filter, at every tick before `map`; nullopt without a new one.
   std::optional<CameraStep> takeStep(const std::shared_ptr<const common::KeyPoses>& keys, common::Time now);
+  /// What the beams down measured, for a stereo camera; see StereoScale::addBeams.
+  void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
+    if (stereo_) stereo_->addBeams(stamp, below_m, R_level_body);
+  }
   /// See CameraSteps::forgetClone.
   void forgetClone();
   /// Something contradicted the camera then: its measurements are not used for kCameraDoubted_s.
@@ -66,6 +70,12 @@ class SpaceSensors {
   bool isCameraDoubted(common::Time now) const {
     return camera_doubted_ && (now - *camera_doubted_).seconds() < kCameraDoubted_s;
   }
+  /// The filter was told what the camera measured then, and knows the horizontal position by it.
+  void placedByStereo(common::Time now) {
+    if (stereo_) placed_ = now;
+  }
+  /// Whether the last pair of a stereo camera that measured the position is not older than that.
+  bool isPlacedByStereo(common::Time now) const { return placed_ && (now - *placed_).seconds() <= kStereoPlaces_s; }
   /// Longer than it takes the camera to be matched anew.
   static constexpr double kCameraDoubted_s = 1.0;
   /// Maps what has waited long enough, at every tick.
@@ -80,6 +90,8 @@ class SpaceSensors {
   std::optional<mapping3d::RadioCounts> radioCounts() const { return rgbd_ ? rgbd_->radioCounts() : std::nullopt; }
 
  private:
+  /// Two pairs at 3 Hz, the slowest that is flown: for so long the filter carries the position from the last one.
+  static constexpr double kStereoPlaces_s = 0.7;
   static FrameSituation situationAt(common::Time time, const MapSituation& situation, common::Time now);
   void mapFrame(const MapSituation& situation, common::Time now);
   void lookForTargets(const MapSituation& situation, common::Time now);
@@ -90,6 +102,7 @@ class SpaceSensors {
   std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
   std::unique_ptr<TargetPipeline> targets_;  ///< Null without an RGB-D camera, and without targets to look for.
   std::optional<common::Time> camera_doubted_;
+  std::optional<common::Time> placed_;  ///< See placedByStereo.
 };
 
 }  // namespace swiftlet::autonomy

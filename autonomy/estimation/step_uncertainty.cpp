@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "common/small_matrices.hpp"
+
 namespace swiftlet::autonomy {
 
 std::optional<common::UnobservableMotion> unobservableMotion(const OdometryStep& step,
@@ -16,6 +18,14 @@ Eigen::Matrix3d StepUncertainty::add(const OdometryStep& step, const common::Pos
                                      const Eigen::Matrix3d& covariance_odom) {
   return step.covariance +
          common::turned(unobserved(covariance_odom, unobservableMotion(step, T_odom_body)), -T_odom_body.yaw_rad);
+}
+
+Eigen::Matrix3d StepUncertainty::grown(const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance_odom) {
+  const common::SymmetricEigen<3> change = common::symmetricEigen(Eigen::Matrix3d(covariance_odom - covariance_odom_));
+  covariance_odom_ = covariance_odom;
+  unobservable_odom_.reset();
+  const Eigen::Matrix3d growth = change.vectors * change.values.cwiseMax(0.0).asDiagonal() * change.vectors.transpose();
+  return common::turned(growth, -T_odom_body.yaw_rad);
 }
 
 /// By how much the filter's covariance has changed along what this scan does not show, or along what the scan before

@@ -26,6 +26,9 @@ class StepUncertainty {
   /// Returns the covariance of the motion since the last call, (x_m, y_m, yaw_rad) with the axes of the body.
   Eigen::Matrix3d add(const OdometryStep& step, const common::Pose2& T_odom_body,
                       const Eigen::Matrix3d& covariance_odom);
+  /// For a scan that did not match, while another sensor measures the motion. Returns by how much the filter's
+  /// covariance has grown since the last call, in the directions in which it has, as add() does.
+  Eigen::Matrix3d grown(const common::Pose2& T_odom_body, const Eigen::Matrix3d& covariance_odom);
 
  private:
   Eigen::Matrix3d unobserved(const Eigen::Matrix3d& covariance_odom,

@@ -23,17 +23,19 @@ constexpr double kBlind_s = 0.5;
 
 /// What a job works with.
 struct StereoPipeline::Job {
-  explicit Job(const common::RgbdCameraConfig& camera) : matcher(camera), odometry(matcher.noise()) {}
+  explicit Job(const common::RgbdCameraConfig& camera)
+      : matcher(camera), odometry(matcher.noise()), T_body_camera(camera.mount.pose()) {}
 
   Outcome work(const common::RgbdFrame& pair, bool forget) {
     if (forget) odometry.forget();
     const auto frame = matcher.match(pair);
-    if (!frame) return {frame.error(), {}};
-    return {{}, odometry.add(*frame)};
+    if (!frame) return {frame.error(), {}, {}};
+    return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera)};
   }
 
   vision::StereoMatcher matcher;
   perception::VisualOdometry odometry;
+  common::Pose3 T_body_camera;
 };
 
 StereoPipeline::StereoPipeline(const common::RgbdCameraConfig& camera, common::JobRunner& jobs, common::EventLog& log)
@@ -42,7 +44,8 @@ StereoPipeline::StereoPipeline(const common::RgbdCameraConfig& camera, common::J
       T_body_camera_(camera.mount.pose()),
       job_(std::make_shared<Job>(camera)),
       silence_("stereo camera", "pair", kPairsSilent_s, log),
-      blind_(kBlind_s, kBlind_s) {}
+      blind_(kBlind_s, kBlind_s),
+      scale_(T_body_camera_) {}
 
 StereoPipeline::~StereoPipeline() = default;
 
@@ -69,17 +72,32 @@ void StereoPipeline::watch(Time now) {
 void StereoPipeline::take(const Outcome& outcome, Time delivered) {
   CameraStep step;
   const perception::VisualStep& seen = outcome.step;
+  const Message missing = missingOf(outcome, delivered);
+  if (seen.motion && missing.name().empty() && !forget_)
+    step.measurement = bodyMeasurement(*seen.motion, T_body_camera_);
+  if (seen.became_key_frame && !forget_) step.clone_after = seen.stamp;
+  report(missing, delivered);
+  step_ = step;
+}
+
+/// Why the pair measures no motion. One whose depths are scaled measures a scaled motion.
+Message StereoPipeline::missingOf(const Outcome& outcome, Time delivered) {
   if (!outcome.fault.name().empty()) {
     silence_.unusableArrived(delivered, "it cannot be used");
-    if (faults_.insert(std::string(outcome.fault.name())).second)
-      log_.warn(delivered, kStereo, "a pair cannot be used", outcome.fault.text() + "; further ones are only counted");
-  } else {
-    silence_.usableArrived(delivered);
-    if (seen.motion && !forget_) step.measurement = bodyMeasurement(*seen.motion, T_body_camera_);
-    if (seen.became_key_frame && !forget_) step.clone_after = seen.stamp;
+    warnOnce("a pair cannot be used", outcome.fault, delivered);
+    return outcome.fault;
   }
-  report(outcome.fault.name().empty() ? seen.missing : outcome.fault, delivered);
-  step_ = step;
+  silence_.usableArrived(delivered);
+  scale_.addPair(outcome.step.stamp, outcome.below_body_m);
+  const auto contradiction = scale_.contradiction();
+  if (!contradiction) return outcome.step.missing;
+  warnOnce("pairs are not used", *contradiction, delivered);
+  return *contradiction;
+}
+
+void StereoPipeline::warnOnce(const char* what, const Message& fault, Time now) {
+  if (faults_.insert(std::string(fault.name())).second)
+    log_.warn(now, kStereo, what, fault.text() + "; it is said once");
 }
 
 void StereoPipeline::report(const Message& missing, Time now) {

@@ -1,9 +1,10 @@
 // Measures the motion with a stereo camera. The heavy work is a job: depths by stereo, then visual odometry.
 //
 //   pair --> StereoMatcher --> RGB-D frame --> VisualOdometry, a job --> CameraStep for the filter
-//     ^--- a newer pair replaces one that waits
+//     ^--- a newer pair replaces one that waits          \--> what lies below, compared with the beams down
 //
-// Pairs that cannot be used, a silent camera, and times without visual odometry leave events.
+// Pairs that cannot be used, a silent camera, depths that the beams down contradict, and times without visual odometry
+// leave events.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,11 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "autonomy/arrivals/silence_watch.hpp"
 #include "autonomy/estimation/odometry_step.hpp"
+#include "autonomy/estimation/stereo_scale.hpp"
 #include "common/event_log.hpp"
 #include "common/hysteresis.hpp"
 #include "common/jobs.hpp"
@@ -42,6 +45,10 @@ class StereoPipeline {
   void watch(common::Time now);
   /// What the last pair tells the filter, without a measurement if it showed no motion; nullopt if it was taken before.
   std::optional<CameraStep> take() { return std::exchange(step_, std::nullopt); }
+  /// See StereoScale::addBeams.
+  void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
+    scale_.addBeams(stamp, below_m, R_level_body);
+  }
   /// The filter no longer has the clones from which the measurements start.
   void forgetClones() { forget_ = true; }
 
@@ -50,8 +57,11 @@ class StereoPipeline {
   struct Outcome {
     common::Message fault;  ///< Of the pair; without a name for one that could be used.
     perception::VisualStep step;
+    std::vector<Eigen::Vector3f> below_body_m;  ///< See pointsBelow_body_m.
   };
   void take(const Outcome& outcome, common::Time delivered);
+  common::Message missingOf(const Outcome& outcome, common::Time delivered);
+  void warnOnce(const char* what, const common::Message& fault, common::Time now);
   void report(const common::Message& missing, common::Time now);
 
   common::EventLog& log_;
@@ -61,8 +71,9 @@ class StereoPipeline {
   SilenceWatch silence_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_;         ///< Of the last pair that was taken.
-  std::set<std::string> faults_;                      ///< Names of those that left an event.
+  std::set<std::string> faults_;                      ///< Names of those that left a warning.
   common::Hysteresis blind_;
+  StereoScale scale_;
   bool forget_ = false;
   std::optional<CameraStep> step_;
 };

@@ -85,6 +85,7 @@ struct ErrorStateFilter::Impl {
   bool predicted = false;
   Time newest_seen;
   bool any_seen = false;
+  double camera_delay_s = 0.0;  ///< Of the last pose in space, behind the newest sample when it came.
   FusionCounts counters;
 };
 
@@ -96,8 +97,12 @@ Eigen::Matrix<double, Rows, Rows> ErrorStateFilter::Impl::byLaser(const FilterSt
   return errors * errors.transpose();
 }
 
+/// A camera that is late is not silent: a pose is as old as its delay when it comes, and older until the next one.
 bool ErrorStateFilter::Impl::horizontalFresh(const Slot& newest) const {
-  return newest.at_rest || horizontalAge_s(newest.state) <= config.horizontal_timeout_s;
+  const FilterState& s = newest.state;
+  const double laser_s = (s.stamp - s.relative_gate.last_accepted).seconds();
+  const double camera_s = (s.stamp - s.spatial_gate.last_accepted).seconds() - camera_delay_s;
+  return newest.at_rest || std::min(laser_s, camera_s) <= config.horizontal_timeout_s;
 }
 
 bool ErrorStateFilter::Impl::verticalFresh(const Slot& newest) const {
@@ -160,6 +165,8 @@ Insertion ErrorStateFilter::add(const Measurement& m) {
   const Insertion outcome = !isValid(m)                     ? Insertion::kInvalid
                             : relative && !hasClone(m.from) ? Insertion::kUnknownReference
                                                             : f.history.insert(m);
+  if (outcome == Insertion::kTaken && m.kind == MeasurementKind::kRelativePose3)
+    f.camera_delay_s = std::max(0.0, (f.newest_seen - m.stamp).seconds());
   ++(outcome == Insertion::kTaken ? f.counters.measurements : f.counters.refused);
   return outcome;
 }

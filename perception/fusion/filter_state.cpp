@@ -20,18 +20,24 @@ int FilterState::cloneAt(common::Time time) const {
   return -1;
 }
 
-void FilterState::clonePose() {
+int FilterState::oldestClone(OdometrySource source) const {
+  for (int i = 0; i < clone_count; ++i)
+    if (clones[static_cast<std::size_t>(i)].source == source) return i;
+  return -1;
+}
+
+/// Clones are in the order of their times.
+void FilterState::clonePose(OdometrySource source) {
   if (cloneAt(stamp) >= 0) return;
   if (clone_count == kMaxClones) {
-    int oldest = 0;
-    for (int i = 1; i < clone_count; ++i)
-      if (clones[static_cast<std::size_t>(i)].last_used < clones[static_cast<std::size_t>(oldest)].last_used)
-        oldest = i;
-    dropClone(oldest);
+    const auto own = std::count_if(clones.begin(), clones.end(),
+                                   [source](const ClonedPose& clone) { return clone.source == source; });
+    const OdometrySource other = source == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
+    dropClone(oldestClone(own >= kClonesOf[static_cast<std::size_t>(source)] ? source : other));
   }
   const int n = dimension();
   clones[static_cast<std::size_t>(clone_count++)] = {
-      stamp, stamp, {rotation_odom_body, position_odom_m}, velocity_odom_m_s, yaw_rate_odom_rad_s};
+      stamp, source, {rotation_odom_body, position_odom_m}, velocity_odom_m_s, yaw_rate_odom_rad_s};
   covariance.conservativeResize(n + kCloneSize, n + kCloneSize);
   covariance.block(n, 0, 3, n) = covariance.block(kPosition, 0, 3, n);
   covariance.block(n + 3, 0, 3, n) = covariance.block(kAttitude, 0, 3, n);

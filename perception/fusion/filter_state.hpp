@@ -26,6 +26,9 @@ inline constexpr int kAhrsDrift = 19;   ///< The rate at which that offset grows
 inline constexpr int kCore = 20;
 inline constexpr int kCloneSize = 6;
 inline constexpr int kMaxClones = 4;
+/// Those that a sensor keeps while the other asks for more: the laser's last reference, and the key frames of visual
+/// odometry.
+inline constexpr std::array<int, kOdometrySources> kClonesOf{1, 3};
 inline constexpr int kMaxDimension = kCore + kCloneSize * kMaxClones;
 /// Standard deviation of a yaw that may be any: pi / sqrt(3), that of the uniform distribution.
 inline constexpr double kUnknownYaw_rad = 1.8;
@@ -42,7 +45,7 @@ using LaserSensitivity = Eigen::Matrix<double, Eigen::Dynamic, kLaserSize, Eigen
 
 struct ClonedPose {
   common::Time stamp;
-  common::Time last_used;
+  OdometrySource source = OdometrySource::kLaser;
   common::Pose3 T_odom_body;
   Eigen::Vector3d velocity_odom_m_s = Eigen::Vector3d::Zero();
   double yaw_rate_odom_rad_s = 0.0;
@@ -97,9 +100,11 @@ struct FilterState {
   int dimension() const { return kCore + kCloneSize * clone_count; }
   /// Index of the clone taken at `time`, or -1.
   int cloneAt(common::Time time) const;
-  /// Appends a clone of the present pose. If there is no room, the least recently used clone is dropped.
-  void clonePose();
+  /// Appends a clone of the present pose as a reference of that sensor. See poseClone for what it replaces.
+  void clonePose(OdometrySource source);
   void dropClone(int index);
+  /// The oldest clone of the sensor, or -1.
+  int oldestClone(OdometrySource source) const;
   /// Adds an estimated error to the direct state and the clones.
   void inject(const ErrorVector& error);
   bool finite() const;

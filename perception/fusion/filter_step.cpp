@@ -169,7 +169,7 @@ double FilterStep::accelerometerNoise_m_s2_rthz(const Slot& slot) const {
 void FilterStep::apply(FilterState& state, const Measurement& m) const {
   switch (m.kind) {
     case MeasurementKind::kClone:
-      state.clonePose();
+      state.clonePose(m.source);
       return;
     case MeasurementKind::kHeight:
       gatedUpdate(state, state.height_gate, height(state, m.value, m.covariance(0, 0)), kRecovery_s, widenHeight);
@@ -190,7 +190,6 @@ void FilterStep::apply(FilterState& state, const Measurement& m) const {
 void FilterStep::updateByRelativePose(FilterState& state, const Measurement& m) const {
   const int clone = state.cloneAt(m.from);
   if (clone < 0) return;  // The clone was dropped after the measurement was accepted.
-  state.clones[static_cast<std::size_t>(clone)].last_used = m.stamp;
   if (m.kind == MeasurementKind::kRelativePose3) {
     // A pose in space never overrules the laser: its gate is forced only where nothing else measures the position.
     const bool alone = (state.stamp - state.relative_gate.last_accepted).seconds() >= kRecovery_s;

@@ -80,7 +80,7 @@ struct Print {
       case MeasurementKind::kRelativePose3:
         return lineOfPose3(m);
       case MeasurementKind::kClone:
-        return fmt::format("clone {}\n", time);
+        return fmt::format("{} {}\n", m.source == OdometrySource::kLaser ? "clone" : "clone3", time);
       case MeasurementKind::kAbsolutePose:
         break;  // No flight measures one.
     }
@@ -169,7 +169,8 @@ FilterInput shortOf(std::string_view name, Numbers& n) {
   if (name == "start") return TapedStart{n.number()};
   if (name == "rest") return TapedRest{n.number() != 0.0};
   if (name == "predicted") return TapedPredicted{n.number() != 0.0};
-  if (name == "clone") return poseClone(n.time());
+  if (name == "clone") return poseClone(n.time(), OdometrySource::kLaser);
+  if (name == "clone3") return poseClone(n.time(), OdometrySource::kVision);
   const Time time = n.time();
   const double value = n.number();
   return measuredHeight(time, value, n.number());
@@ -188,8 +189,8 @@ std::optional<FilterInput> filterInputOf(const std::vector<std::string_view>& wo
     std::string_view name;
     std::size_t numbers;
   };
-  constexpr Form kForms[] = {{"imu", 12},  {"start", 1},  {"rest", 1},   {"predicted", 1}, {"clone", 1},
-                             {"pose", 16}, {"pose3", 30}, {"height", 3}, {"vertical", 10}};
+  constexpr Form kForms[] = {{"imu", 12},   {"start", 1}, {"rest", 1},   {"predicted", 1}, {"clone", 1},
+                             {"clone3", 1}, {"pose", 16}, {"pose3", 30}, {"height", 3},    {"vertical", 10}};
   if (words.empty()) return std::nullopt;
   Numbers numbers(words);
   for (const Form& form : kForms) {

@@ -41,7 +41,7 @@ struct FusionConfig {
       0.02;                                         ///< Standard deviation of the zero velocity measured at rest.
   static constexpr double recovery_window_s = 5.0;  ///< Time within which forced openings are counted.
   static constexpr double horizontal_timeout_s =
-      0.5;  ///< Without a relative pose for this long the horizontal estimate is degraded.
+      0.5;  ///< Without a relative pose for this long the horizontal estimate is degraded; a camera's delay is added.
   double vertical_timeout_s =
       6.0;  ///< Without a height for this long the vertical estimate is degraded; over slopes there is none.
 

@@ -1,6 +1,7 @@
 // The status and counters of the fusion filter.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,10 @@
 #include <Eigen/Core>
 
 namespace swiftlet::perception {
+
+/// What measures relative poses.
+enum class OdometrySource : std::uint8_t { kLaser, kVision };
+inline constexpr std::size_t kOdometrySources = 2;
 
 enum class FusionStatus { kNotInitialized, kOk, kDegraded, kDiverged };
 const char* toString(FusionStatus status);

@@ -28,7 +28,11 @@ bool isCovariance(const Eigen::Matrix<double, 6, 6>& m) {
 
 }  // namespace
 
-Measurement poseClone(Time time) { return measurementOf(MeasurementKind::kClone, time); }
+Measurement poseClone(Time time, OdometrySource source) {
+  Measurement m = measurementOf(MeasurementKind::kClone, time);
+  m.source = source;
+  return m;
+}
 
 Measurement measuredRelativePose(Time from, Time to, const common::Pose2& T_from_to, const Eigen::Matrix3d& covariance,
                                  const std::optional<common::UnobservableMotion>& unobservable_motion) {

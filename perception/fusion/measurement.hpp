@@ -19,8 +19,9 @@ enum class MeasurementKind : std::uint8_t { kHeight, kVertical, kRelativePose, k
 struct Measurement {
   common::Time stamp;
   MeasurementKind kind = MeasurementKind::kClone;
-  common::Time from;   ///< Of a relative pose: time of the cloned reference.
-  common::Pose2 pose;  ///< kRelativePose, kAbsolutePose.
+  OdometrySource source = OdometrySource::kLaser;  ///< kClone: whose reference it is.
+  common::Time from;                               ///< Of a relative pose: time of the cloned reference.
+  common::Pose2 pose;                              ///< kRelativePose, kAbsolutePose.
   /// kRelativePose: change of the pose, along the axes of the level frame at `from`.
   std::optional<common::UnobservableMotion> unobservable_motion;
   double value = 0;                                                               ///< kHeight: m.
@@ -30,9 +31,10 @@ struct Measurement {
   Eigen::Matrix<double, 6, 6> covariance6 = Eigen::Matrix<double, 6, 6>::Zero();  ///< kRelativePose3.
 };
 
-/// Clones the pose at `time`, usually that of a scan that becomes the reference. Up to four clones are kept; beyond
-/// that, the least recently used one is dropped.
-Measurement poseClone(common::Time time);
+/// Clones the pose at `time`, usually that of a scan or picture that becomes a reference of that sensor. One clone is
+/// kept for the laser and three for the camera, more while the other needs less: a new one replaces the oldest of its
+/// own sensor, so that a sensor that is not used keeps its reference.
+Measurement poseClone(common::Time time, OdometrySource source = OdometrySource::kLaser);
 /// T_from_to in the level frame of the body at `from`, which must be cloned, with the covariance of (x, y, yaw). Along
 /// `unobservable_motion`, with the axes of the frame at `from`, nothing was measured and nothing is used, whatever the
 /// pose and covariance say. Otherwise a guess repeated with each scan, however uncertain, would soon count as

@@ -13,6 +13,8 @@ constexpr double kClearlyBetter = 0.7;
 /// Without a measurement for so long a sensor measures nothing: two periods of the slowest camera, at 3 Hz, and the
 /// jitter of its link. Within it two scans of a laser at 10 Hz may be lost.
 constexpr double kSilent_s = 0.7;
+/// A sensor that measures nothing in one turn may in the next: one pair at 3 Hz, with the jitter of its link.
+constexpr double kMissed_s = 0.4;
 
 }  // namespace
 
@@ -37,11 +39,16 @@ double OdometryChoice::presentDeviation_m(OdometrySource source, common::Time no
 }
 
 std::optional<OdometrySwitch> OdometryChoice::measured(OdometrySource source, double deviation_m, common::Time now) {
-  sensors_[static_cast<std::size_t>(source)] = {deviation_m, now};
+  Sensor& sensor = sensors_[static_cast<std::size_t>(source)];
+  const bool missed_one = !std::isfinite(deviation_m) && sensor.at && (now - *sensor.at).seconds() <= kMissed_s;
+  if (!missed_one) sensor = {deviation_m, now};
   if (rule_ == OdometryRule::kAll) return std::nullopt;
   const OdometrySource other = used_ == OdometrySource::kLaser ? OdometrySource::kVision : OdometrySource::kLaser;
   const double used_m = presentDeviation_m(used_, now), other_m = presentDeviation_m(other, now);
-  if (!std::isfinite(other_m) || other_m >= kClearlyBetter * used_m) return std::nullopt;
+  const bool better = std::isfinite(other_m) && other_m < kClearlyBetter * used_m;
+  other_better_.update(better, now);
+  if (!better || (std::isfinite(used_m) && !other_better_.active())) return std::nullopt;
+  other_better_.reset();
   const OdometrySwitch change{used_, other, used_m, other_m};
   used_ = other;
   return change;

@@ -4,10 +4,12 @@
 // covariance is not valid, and the sensor with the smallest covariance is taken for the one that suits the
 // surroundings.
 //
-//            vision clearly better, or the laser measures nothing
-//   laser  ------------------------------------------------------>  vision
-//          <------------------------------------------------------
-//            laser clearly better, or vision measures nothing
+//            vision clearly better for a while, or the laser measures nothing
+//   laser  ------------------------------------------------------------------>  vision
+//          <------------------------------------------------------------------
+//            laser clearly better for a while, or vision measures nothing
+//
+// A sensor measures nothing when it says so in two turns, or falls silent.
 #pragma once
 
 #include <array>
@@ -17,6 +19,7 @@
 
 #include <Eigen/Core>
 
+#include "common/hysteresis.hpp"
 #include "common/time.hpp"
 #include "perception/fusion/measurement.hpp"
 
@@ -24,8 +27,6 @@ namespace swiftlet::perception {
 
 /// `best` is the paper's rule. With `all`, ours, the filter weighs both by their covariances.
 enum class OdometryRule { kAll, kBest };
-enum class OdometrySource { kLaser, kVision };
-inline constexpr std::size_t kOdometrySources = 2;
 const char* toString(OdometrySource source);
 
 /// The standard deviation of a relative pose, by which sensors are compared: that of the horizontal position along its
@@ -52,6 +53,8 @@ class OdometryChoice {
   bool uses(OdometrySource source) const { return rule_ == OdometryRule::kAll || source == used_; }
 
  private:
+  /// Three pairs at 4 Hz: pictures that are blurred in turns with sharp ones do not make the sensors take turns.
+  static constexpr double kSettled_s = 0.7;
   struct Sensor {
     double deviation_m = kNothing;
     std::optional<common::Time> at;
@@ -61,6 +64,7 @@ class OdometryChoice {
   OdometryRule rule_;
   OdometrySource used_ = OdometrySource::kLaser;  ///< A flight begins with it: near the ground cameras see too little.
   std::array<Sensor, kOdometrySources> sensors_;
+  common::Hysteresis other_better_{kSettled_s};  ///< Clearly, though the used one measures.
 };
 
 }  // namespace swiftlet::perception

@@ -176,10 +176,21 @@ void drawPosters(Canvas& canvas) {
     }
 }
 
+/// Tufts of 4 to 16 cm with blades of 1 cm, thinner in places.
+void drawLawn(Canvas& canvas) {
+  const GridNoise bare = canvas.noise(8, 8, "bare"), tufts = canvas.noise(16, 16, "tufts");
+  const GridNoise small = canvas.noise(64, 64, "small tufts"), blades = canvas.noise(256, 256, "blades");
+  canvas.fill([&](int x, int y) {
+    const float rough = 1.0F + 0.5F * bare.at(x, y);
+    return 1.0F + 0.12F * tufts.at(x, y) + rough * (0.22F * small.at(x, y) + 0.25F * blades.at(x, y));
+  });
+}
+
 }  // namespace
 
 const std::vector<std::string>& patternWords() {
-  static const std::vector<std::string> kWords{"blank", "plaster", "wood", "brick", "carpet", "tiles", "posters"};
+  static const std::vector<std::string> kWords{"blank",  "plaster", "wood",    "brick",
+                                               "carpet", "tiles",   "posters", "lawn"};
   return kWords;
 }
 
@@ -191,7 +202,8 @@ std::optional<Pattern> patternFrom(const std::string& word) {
 
 Texture makePattern(Pattern pattern, std::uint64_t variant) {
   using Draw = void (*)(Canvas&);
-  constexpr std::array<Draw, 7> kDraw{nullptr, drawPlaster, drawWood, drawBrick, drawCarpet, drawTiles, drawPosters};
+  constexpr std::array<Draw, 8> kDraw{nullptr,    drawPlaster, drawWood,    drawBrick,
+                                      drawCarpet, drawTiles,   drawPosters, drawLawn};
   const auto index = static_cast<std::size_t>(pattern);
   SWIFTLET_CHECK(pattern != Pattern::kBlank, index);
   Canvas canvas(patternWords()[index], variant);

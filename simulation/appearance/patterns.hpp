@@ -18,6 +18,7 @@ enum class Pattern {
   kCarpet,   ///< Coarse weave with a motif.
   kTiles,    ///< Square tiles with joints.
   kPosters,  ///< Plaster with pictures and notices on it.
+  kLawn,     ///< Tufts of grass and bare places.
 };
 
 /// The words of the patterns, in the order of the enumerators.

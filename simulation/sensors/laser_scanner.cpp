@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 
 #include "common/check.hpp"
+#include "simulation/sensors/daylight.hpp"
 #include "simulation/world_model.hpp"
 
 namespace swiftlet::simulation {
@@ -131,14 +133,19 @@ common::RandomStream LaserScanner::randomOf(const char* what, std::uint64_t fram
   return {seed_, what, frame * distances_m_.size() + beam};
 }
 
-void LaserScanner::addSurfaceErrors() {
+void LaserScanner::addSurfaceErrors(const std::vector<Actor>& actors, const RayCaster& rays) {
   constexpr float kLeastCos = 0.1F;
   const auto bias_m = static_cast<float>(errors_.incidence_bias_m);
+  // Noise grows with the daylight that a surface returns, and the range at which the pulse is lost in it shrinks.
+  const auto share = static_cast<float>(errors_.daylight_range_share);
+  std::vector<std::uint8_t> lit;
+  if (share < 1.0F) lit = inDaylight(rays_, hits_, actors, rays);
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     const Hit& hit = hits_[i];
     if (!hit) continue;
     const float cos_incidence = std::abs(rays_[i].direction_world.dot(hit.normal_world));
-    const float seen_m2 = seen_m2_[std::min(static_cast<std::size_t>(hit.shape), seen_m2_.size() - 1)];
+    float seen_m2 = seen_m2_[std::min(static_cast<std::size_t>(hit.shape), seen_m2_.size() - 1)];
+    if (!lit.empty() && lit[i] != 0) seen_m2 *= share * share;
     float& distance_m = distances_m_[i];
     if (distance_m * distance_m > seen_m2 * cos_incidence)
       distance_m = std::numeric_limits<float>::infinity();
@@ -199,7 +206,7 @@ Time LaserScanner::stampOf(Time start) const {
 common::LaserScan LaserScanner::scan(std::uint64_t frame, Time start, const std::vector<Moment>& track,
                                      const RayCaster& rays) {
   sweepRays(start, track, rays);
-  if (errors_.needsSurfaces()) addSurfaceErrors();
+  if (errors_.needsSurfaces()) addSurfaceErrors(track.back().actors, rays);
   if (errors_.sun_dropout_rate > 0.0) blindBySun(frame);
   if (errors_.mixed_pixel_rate > 0.0) mixPixels(frame);
   if (!seen_.empty()) noteGlass();

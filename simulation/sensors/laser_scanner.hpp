@@ -52,7 +52,7 @@ class LaserScanner {
   /// The first hit behind the glass at `hit`.
   Hit behindGlass(const Ray& ray, Hit hit, const std::vector<Actor>& actors, const RayCaster& rays) const;
   /// Puts what the surfaces do to the beams into distances_m_: lost returns and biases.
-  void addSurfaceErrors();
+  void addSurfaceErrors(const std::vector<Actor>& actors, const RayCaster& rays);
   void blindBySun(std::uint64_t frame);
   void mixPixels(std::uint64_t frame);
   bool towardsSun(const Ray& ray) const;

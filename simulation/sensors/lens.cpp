@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "common/trajectory.hpp"
+#include "simulation/sensors/daylight.hpp"
 
 namespace swiftlet::simulation {
 namespace {
@@ -90,9 +92,13 @@ void Lens::seeRow(int v, const Exposure& exposure, const Scene& scene) {
   const std::size_t first = static_cast<std::size_t>(v) * row_.size();
   for (std::size_t u = 0; u < row_.size(); ++u) row_[u] = {origin, R_world_camera * along_[first + u].normalized()};
   scene.rays.castAll(row_, kSight_m, scene.actors, hits_);
+  const float indoor_light = scene.shader.indoorLight();
+  std::vector<std::uint8_t> lit;  // Empty where the light is the same everywhere.
+  if (indoor_light < 1.0F) lit = inDaylight(row_, hits_, scene.actors, scene.rays);
   for (std::size_t u = 0; u < row_.size(); ++u) {
     const std::size_t pixel = first + u;
     seePixel(pixel, row_[u], hits_[u], scene);
+    if (!lit.empty() && lit[u] == 0) seen_.light[pixel] *= indoor_light;
     if (seen_.motion_px.empty()) continue;
     const float depth_m = std::min(seen_.depth_m[pixel], static_cast<float>(kSight_m));
     seen_.motion_px[pixel] = motion_px(exposure, along_[pixel] * depth_m);

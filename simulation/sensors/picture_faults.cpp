@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "common/check.hpp"
 #include "common/rgbd_frame.hpp"
@@ -65,7 +66,8 @@ std::optional<common::SensorEvent> withPictureFault(FaultKind kind, const common
   if (copy->right) {
     auto right = std::make_shared<common::Image>(*copy->right);
     spoil(kind, *right);
-    copy->right = std::move(right);
+    if (kind == FaultKind::kExchanged) std::swap(copy->color, *right);
+    copy->right = kind == FaultKind::kOneSided ? nullptr : std::move(right);
   }
   return std::shared_ptr<const common::RgbdFrame>(std::move(copy));
 }

@@ -93,6 +93,8 @@ void LaserErrorsConfig::describe(common::config::Fields& fields) {
          "Share of beams at an edge that read a range between the two surfaces.");
   fields("dark_range_m", dark_range_m, {0, 100},
          "Range beyond which a black surface returns nothing; a white one is seen at any range. 0: all are seen.");
+  fields("daylight_range_share", daylight_range_share, {0, 1},
+         "What is left of the range at which a surface is seen where daylight falls on it; it needs a dark_range_m.");
   fields("sun_dropout_rate", sun_dropout_rate, {0, 1}, "Share of beams towards the sun that return nothing.");
   fields("sun_direction_deg", sun_direction_deg, {-360, 360}, "Heading of the sun in the world's frame.");
   fields("sun_width_deg", sun_width_deg, {0, 180}, "Angle to each side of the sun within which beams drop out.");

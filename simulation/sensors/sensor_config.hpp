@@ -67,6 +67,7 @@ struct LaserErrorsConfig {
   double incidence_bias_m = 0.0;
   double mixed_pixel_rate = 0.0;
   double dark_range_m = 0.0;
+  double daylight_range_share = 1.0;
   double sun_dropout_rate = 0.0;
   double sun_direction_deg = 0.0;
   double sun_width_deg = 30.0;

@@ -133,6 +133,8 @@ std::optional<SensorEvent> withFault(const ActiveFault& active, const SensorEven
     case FaultKind::kWhite:
     case FaultKind::kFlipped:
     case FaultKind::kOtherSize:
+    case FaultKind::kExchanged:
+    case FaultKind::kOneSided:
       return withPictureFault(fault.kind, event);
     case FaultKind::kLostCell:  // Of the battery itself.
       return event;

@@ -41,7 +41,7 @@ ImagePlace imagePlace(const Shape& shape, const Hit& hit) {
 
 }  // namespace
 
-SurfaceShader::SurfaceShader(const WorldModel& world) : world_light_(world.light) {
+SurfaceShader::SurfaceShader(const WorldModel& world) : world_light_(world.light), indoor_light_(world.indoor_light) {
   for (const Shape& shape : world.shapes) {
     const Covering covering = coveringOf(shape);
     const common::Pose3 T_shape_world = shape.T_world_shape.inverse();

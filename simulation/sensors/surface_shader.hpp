@@ -34,6 +34,8 @@ class SurfaceShader {
 
   /// What a pixel of `pixel_rad` sees along a ray; without a hit it sees the sky.
   SeenSurface see(const Ray& ray, const Hit& hit, float pixel_rad, std::span<const Actor> actors) const;
+  /// Share of that light where no daylight falls.
+  float indoorLight() const { return indoor_light_; }
 
  private:
   /// The surfaces of one shape.
@@ -53,6 +55,7 @@ class SurfaceShader {
   std::map<std::pair<Pattern, std::uint64_t>, std::unique_ptr<const Texture>> patterns_;
   std::map<std::string, std::unique_ptr<const Texture>> images_;  ///< By file; null if it cannot be read.
   Color world_light_;
+  float indoor_light_;
   std::vector<Surfaces> surfaces_;  ///< By shape of the world.
 };
 

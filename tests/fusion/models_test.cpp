@@ -29,7 +29,7 @@ FilterState randomState(common::RandomStream& random, int clones) {
     state.stamp = common::Time::fromSeconds(0.1 * i);
     state.velocity_odom_m_s = vector(random, 1.0);
     state.yaw_rate_odom_rad_s = random.gaussian(1.0);
-    state.clonePose();
+    state.clonePose(OdometrySource::kLaser);
   }
   move();
   state.stamp = common::Time::fromSeconds(1.0);
@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Jacobians, testing::Range(1, 9));
 TEST(Clones, ACloneHasTheCovariancesOfItsPose) {
   common::RandomStream random(3, "clones");
   FilterState state = randomState(random, 2);
-  state.clonePose();
+  state.clonePose(OdometrySource::kVision);
   const int n = state.dimension(), at = n - kCloneSize;
   const auto pose = [&](int row) { return row < 3 ? kPosition + row : kAttitude + row - 3; };
   for (int i = 0; i < kCloneSize; ++i)
@@ -220,25 +220,42 @@ TEST(Clones, ACloneHasTheCovariancesOfItsPose) {
       EXPECT_EQ(state.covariance(j, at + i), state.covariance(j, pose(i)));
     }
   for (int i = 0; i < kCloneSize; ++i) EXPECT_EQ(state.by_laser.row(at + i), state.by_laser.row(pose(i)));
-  state.clonePose();  // The same instant again: nothing new.
+  state.clonePose(OdometrySource::kVision);  // The same instant again: nothing new.
   EXPECT_EQ(state.dimension(), n);
 }
 
-TEST(Clones, TheLeastRecentlyUsedCloneIsDropped) {
+/// The times of the clones in tenths of a second.
+std::vector<int> tenthsOf(const FilterState& state, OdometrySource source) {
+  std::vector<int> tenths;
+  for (int i = 0; i < state.clone_count; ++i)
+    if (const ClonedPose& clone = state.clones[static_cast<std::size_t>(i)]; clone.source == source)
+      tenths.push_back(static_cast<int>(std::lround(10.0 * clone.stamp.seconds())));
+  return tenths;
+}
+
+TEST(Clones, ANewOneReplacesTheOldestOfItsOwnSensor) {
+  constexpr auto kLaser = OdometrySource::kLaser, kVision = OdometrySource::kVision;
   common::RandomStream random(4, "clones");
   FilterState state = randomState(random, kMaxClones);
-  state.clones[0].last_used = common::Time::fromSeconds(0.95);
   const ErrorCovariance before = state.covariance;
   const LaserSensitivity by_laser_before = state.by_laser;
-  state.clonePose();
-  EXPECT_EQ(state.clone_count, kMaxClones);
-  EXPECT_EQ(state.cloneAt(common::Time::fromSeconds(0.0)), 0);
-  EXPECT_EQ(state.cloneAt(common::Time::fromSeconds(0.1)), -1);
-  EXPECT_EQ(state.cloneAt(common::Time::fromSeconds(0.2)), 1);
+  state.clonePose(kLaser);
+  EXPECT_EQ(tenthsOf(state, kLaser), (std::vector{1, 2, 3, 10})) << "alone it has all";
   const int third = kCore + 2 * kCloneSize, second = kCore + kCloneSize;
   EXPECT_EQ(state.covariance(second, second), before(third, third));
   EXPECT_EQ(state.covariance(second, 2), before(third, 2));
   EXPECT_EQ(state.by_laser.row(second), by_laser_before.row(third));
+
+  for (int tenth = 11; tenth <= 16; ++tenth) {
+    state.stamp = common::Time::fromSeconds(0.1 * tenth);
+    state.clonePose(kVision);
+  }
+  EXPECT_EQ(tenthsOf(state, kLaser), std::vector{10}) << "a laser that is not used keeps its reference";
+  EXPECT_EQ(tenthsOf(state, kVision), (std::vector{14, 15, 16}));
+  state.stamp = common::Time::fromSeconds(1.7);
+  state.clonePose(kLaser);
+  EXPECT_EQ(tenthsOf(state, kLaser), std::vector{17});
+  EXPECT_EQ(tenthsOf(state, kVision), (std::vector{14, 15, 16}));
 }
 
 }  // namespace

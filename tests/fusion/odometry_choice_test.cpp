@@ -21,23 +21,34 @@ TEST(OdometryChoice, TheFlightThroughTheWindowSwitchesAsInThePaper) {
   EXPECT_TRUE(choice.uses(kLaser));
   EXPECT_FALSE(choice.uses(kVision));
 
-  const auto up = choice.measured(kVision, 0.003, at(0.4));
-  ASSERT_TRUE(up) << "at 0.7 m the depths become available";
+  EXPECT_FALSE(choice.measured(kVision, 0.003, at(0.4))) << "at 0.7 m the depths become available";
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(0.5)));
+  EXPECT_FALSE(choice.measured(kVision, 0.003, at(0.7)));
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(0.9)));
+  const auto up = choice.measured(kVision, 0.003, at(1.2));
+  ASSERT_TRUE(up) << "and stay";
   EXPECT_EQ(up->from, kLaser);
   EXPECT_EQ(up->to, kVision);
   EXPECT_DOUBLE_EQ(up->from_m, 0.006);
   EXPECT_DOUBLE_EQ(up->to_m, 0.003);
   EXPECT_FALSE(choice.uses(kLaser));
 
-  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(0.5)));
-  const auto blurred = choice.measured(kVision, kNothing, at(0.65));
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(1.3)));
+  EXPECT_FALSE(choice.measured(kVision, kNothing, at(1.45))) << "one pair may fail";
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(1.6)));
+  const auto blurred = choice.measured(kVision, kNothing, at(1.7));
   ASSERT_TRUE(blurred) << "the pictures are blurred";
   EXPECT_EQ(blurred->to, kLaser);
   EXPECT_TRUE(std::isinf(blurred->from_m));
 
-  ASSERT_TRUE(choice.measured(kVision, 0.004, at(0.9))) << "behind the window";
-  EXPECT_FALSE(choice.measured(kLaser, kNothing, at(1.0))) << "the sun blinds the laser";
-  EXPECT_FALSE(choice.measured(kVision, 0.02, at(1.1))) << "poor, but there is no other";
+  EXPECT_FALSE(choice.measured(kVision, 0.004, at(1.95))) << "a sharp one among the blurred";
+  EXPECT_FALSE(choice.measured(kVision, kNothing, at(2.2)));
+  EXPECT_FALSE(choice.measured(kVision, kNothing, at(2.45)));
+  EXPECT_FALSE(choice.measured(kLaser, 0.006, at(2.5)));
+  EXPECT_FALSE(choice.measured(kVision, 0.004, at(2.7))) << "behind the window";
+  EXPECT_FALSE(choice.measured(kLaser, kNothing, at(2.8)));
+  ASSERT_TRUE(choice.measured(kLaser, kNothing, at(3.0))) << "the sun blinds the laser";
+  EXPECT_FALSE(choice.measured(kVision, 0.02, at(3.1))) << "poor, but there is no other";
   EXPECT_TRUE(choice.uses(kVision));
 }
 
@@ -54,7 +65,7 @@ TEST(OdometryChoice, TwoThatAreAlikeDoNotTakeTurns) {
 
 TEST(OdometryChoice, ASensorThatFallsSilentIsLeft) {
   OdometryChoice choice(OdometryRule::kBest);
-  choice.measured(kLaser, 0.01, Time::fromSeconds(0.0));
+  choice.measured(kLaser, kNothing, Time::fromSeconds(0.0));
   ASSERT_TRUE(choice.measured(kVision, 0.002, Time::fromSeconds(0.1)));
   std::optional<OdometrySwitch> change;
   double left_s = 0.0;

@@ -336,6 +336,29 @@ TEST(Faults, PicturesAreFlippedOrOfAnotherSize) {
   EXPECT_EQ(small->camera.width_px, 64) << "the camera says what it always said";
 }
 
+TEST(Faults, PicturesOfAPairAreExchangedOrOneIsMissing) {
+  const auto pairIn = [](FaultKind kind) {
+    Scenario scenario;
+    common::RgbdCameraConfig pair;
+    pair.depth = common::DepthMethod::kStereo;
+    pair.width_px = 64;
+    pair.height_px = 48;
+    scenario.rgbd_camera = pair;
+    if (kind != FaultKind::kSilent) scenario.faults = {{Sensor::kRgbd, kind, 0.5, 2.0}};
+    SimulatedVehicle vehicle(boxRoom(), scenario);
+    std::vector<common::SensorEvent> events;
+    EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(1.0), events));
+    return eventsOf<Rgbd>(events).back();
+  };
+  const Rgbd sound = pairIn(FaultKind::kSilent), exchanged = pairIn(FaultKind::kExchanged);
+  ASSERT_EQ(sound->stamps.measured, exchanged->stamps.measured);
+  EXPECT_EQ(exchanged->color.rgb, sound->right->rgb);
+  EXPECT_EQ(exchanged->right->rgb, sound->color.rgb);
+  const Rgbd one_sided = pairIn(FaultKind::kOneSided);
+  EXPECT_EQ(one_sided->color.rgb, sound->color.rgb);
+  EXPECT_EQ(one_sided->right, nullptr);
+}
+
 TEST(Faults, ARepeatedLateOrSilentRgbdFrame) {
   const auto [before, repeated] = beforeAndIn(FaultKind::kRepeat);
   EXPECT_EQ(repeated->color.rgb, before->color.rgb);

@@ -116,6 +116,33 @@ TEST(LaserErrors, TheSunTakesReturnsAwayAroundItsDirection) {
   }
 }
 
+/// A wall of grey 0.64 at x = 2 and one at x = -2; over the second one is a roof.
+WorldModel yardAndPorch() {
+  WorldModel world;
+  world.shapes = {boxShape("ahead", {2.0, -6.0, 0.0}, {2.2, 6.0, 3.0}),
+                  boxShape("behind", {-2.2, -6.0, 0.0}, {-2.0, 6.0, 3.0}),
+                  boxShape("roof", {-6.0, -6.0, 2.0}, {0.0, 6.0, 2.1})};
+  for (Shape& shape : world.shapes) shape.color = Color::Constant(0.64F);
+  return world;
+}
+
+TEST(LaserErrors, DaylightShortensTheRangeWhereItFalls) {
+  // A grey of 0.64 is seen four times as far as black, 0.04: to 3 m across in the sun.
+  const common::LaserScan scan =
+      scanOf({.mount_error = {}, .dark_range_m = 15.0, .daylight_range_share = 0.05}, yardAndPorch());
+  int ahead = 0, behind = 0;
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double angle_rad = angleOf(scan, i), across_m = 2.0 / std::abs(std::cos(angle_rad));
+    const double reach_m = 3.0 * std::sqrt(std::abs(std::cos(angle_rad)));
+    if (across_m > 5.0 || std::abs(across_m - reach_m) < 0.01) continue;
+    const bool lit = std::cos(angle_rad) > 0.0;
+    EXPECT_EQ(std::isfinite(scan.ranges_m[i]), !lit || across_m < reach_m) << angle_rad;
+    ++(lit ? ahead : behind);
+  }
+  EXPECT_GT(ahead, 100);
+  EXPECT_GT(behind, 10);
+}
+
 TEST(LaserErrors, GlassIsSeenNearItsNormalAndSeenThroughElsewhere) {
   const common::LaserScan scan = scanOf({.mount_error = {}, .glass_angle_deg = 15.0}, roomWithPane());
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {

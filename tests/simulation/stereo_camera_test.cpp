@@ -138,6 +138,19 @@ TEST(StereoCamera, WhatMovesIsBlurredMoreInTheDark) {
   EXPECT_GT(width_px(0.05F), width_px(2.0F) + 2);
 }
 
+TEST(StereoCamera, UnderARoofItIsAsDarkAsTheWorldSays) {
+  const auto brightness = [](bool roof, float indoor_light) {
+    WorldModel world = wallAhead(3.0);
+    world.indoor_light = indoor_light;
+    if (roof) world.shapes.push_back(boxShape("roof", {-20.0, -20.0, 20.0}, {20.0, 20.0, 20.1}));
+    RgbdErrorsConfig fixed = withoutNoise();
+    return static_cast<double>(frameOf(world, exactPair(), fixed).color.rgb[3 * (60 * 160 + 80)]);
+  };
+  EXPECT_EQ(brightness(false, 0.25F), brightness(false, 1.0F));
+  EXPECT_EQ(brightness(true, 1.0F), brightness(false, 1.0F));
+  EXPECT_NEAR(brightness(true, 0.25F), 0.25 * brightness(false, 1.0F), 1.0);
+}
+
 TEST(StereoCamera, WithoutLightThereIsNoPicture) {
   WorldModel world = wallAhead(3.0);
   world.light = Color::Zero();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pair_rig.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 using common::Pose3;
 using common::Time;
 using testing::Contains;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 class StereoStory : public testing::Test {
@@ -90,6 +92,77 @@ TEST_F(StereoStory, ThatItIsBlindIsSaidOnceAndTakenBack) {
   EXPECT_THAT(texts(), Contains("visual odometry available"));
   see(hovering(1.2), 5.0);
   EXPECT_THAT(texts(), IsEmpty());
+}
+
+TEST_F(StereoStory, ExchangedPicturesMeasureNothingAndAreReported) {
+  see(hovering(1.2), 1.0);
+  for (int i = 1; i <= 6; ++i) {
+    common::RgbdFrame pair = rig_.taken(hovering(1.2), 1.0 + 0.25 * i);
+    auto right = std::make_shared<common::Image>(*pair.right);
+    std::swap(pair.color, *right);
+    pair.right = std::move(right);
+    const auto step = give(std::move(pair), 1.0 + 0.25 * i);
+    ASSERT_TRUE(step);
+    EXPECT_FALSE(step->measurement);
+    EXPECT_FALSE(step->clone_after);
+  }
+  const auto said = texts();
+  EXPECT_EQ(std::count(said.begin(), said.end(), "a pair cannot be used"), 1);
+  EXPECT_THAT(said, Contains("visual odometry unavailable"));
+}
+
+/// Hovers for eight seconds over a level floor that beams down measure, with a pair that is made by one sheet and read
+/// by another.
+struct ScaleStory {
+  explicit ScaleStory(const common::RgbdCameraConfig& true_sheet, double beams_error_m = 0.0) {
+    const common::RgbdCameraConfig sheet = shippedPair();
+    simulation::WorldModel floor = simulation::boxRoom();
+    for (simulation::Shape& shape : floor.shapes) shape.pattern = simulation::Pattern::kCarpet;
+    PairRig rig(true_sheet, floor);
+    const auto jobs = common::makeLockstepJobs(0);
+    common::EventLog log;
+    StereoPipeline pipeline(sheet, *jobs, log);
+    for (double time_s = 1.0; time_s < 9.0; time_s += 0.25) {
+      const Pose3 pose{common::quaternionFrom({0.03, -0.04, 0.2}), {0.02 * std::sin(time_s), 0.0, 1.1}};
+      pipeline.addBeams(Time::fromSeconds(time_s + 0.02), 1.1 + beams_error_m, pose.rotation);
+      common::RgbdFrame pair = rig.taken(pose, time_s);
+      pair.camera = sheet.camera();
+      pair.stamps.arrived = Time::fromSeconds(time_s + 0.1);
+      pipeline.add(std::make_shared<const common::RgbdFrame>(std::move(pair)), Time::fromSeconds(time_s + 0.1));
+      pipeline.watch(Time::fromSeconds(time_s + 0.1));
+      jobs->deliverDue(Time::fromSeconds(time_s + 0.2));
+      const auto step = pipeline.take();
+      if (step && step->measurement) last_measured_s = time_s;
+    }
+    for (const common::Event& event : log.take())
+      if (event.text == "pairs are not used") reason = event.reason;
+  }
+  double last_measured_s = 0.0;
+  std::string reason;  ///< Why pairs are not used; empty if they are.
+};
+
+TEST(StereoScale, ARightSheetAgreesWithTheBeamsAlsoWhereTheseAreOffByACentimetre) {
+  for (const double beams_error_m : {-0.01, 0.0, 0.01}) {
+    const ScaleStory story(shippedPair(), beams_error_m);
+    EXPECT_EQ(story.reason, "") << beams_error_m;
+    EXPECT_GT(story.last_measured_s, 8.0);
+  }
+}
+
+TEST(StereoScale, AWrongBaseIsReportedAndItsMotionsAreNotUsed) {
+  common::RgbdCameraConfig shorter = shippedPair();
+  shorter.baseline_m = 0.105;
+  const ScaleStory story(shorter);
+  EXPECT_THAT(story.reason, HasSubstr("these are 114 % of what they should be"));
+  EXPECT_LT(story.last_measured_s, 4.5);
+}
+
+TEST(StereoScale, AWrongFocalLengthIsReportedAndItsMotionsAreNotUsed) {
+  common::RgbdCameraConfig longer = shippedPair();
+  longer.field_of_view_deg = 75.0;
+  const ScaleStory story(longer);
+  EXPECT_NE(story.reason, "");
+  EXPECT_LT(story.last_measured_s, 4.5);
 }
 
 TEST_F(StereoStory, ARepeatedOrLatePairIsLeftOut) {
