@@ -27,6 +27,9 @@ constexpr double kSameBody_m = 0.3;
 constexpr double kPersonRange_m = 6.0;
 /// The vehicle leaves its path, or its place, where that lowers the probability of meeting a person by this much.
 constexpr double kWorthLeaving = 0.04;
+/// Where the probability is this high on every course, none is free: that of a person who comes straight on and is 2 s
+/// away (half of them go on, and what is later than 1.5 s counts less than half: ContactRisk).
+constexpr double kNothingFree = 0.2;
 /// It slows down on its path where that lowers the probability by this much.
 constexpr double kWorthSlowing = 0.02;
 /// An obstacle that approaches more slowly than this does not count as moving.
@@ -35,6 +38,8 @@ constexpr double kClosingSpeed_m_s = 0.15;
 constexpr double kMappedWithin_m = 0.15;
 /// A retreat ends this long after the danger.
 constexpr double kCalm_s = 0.6;
+/// All of the time for which courses are predicted.
+constexpr double kAlways_s = ContactRisk::kSteps * ContactRisk::kStep_s;
 /// A door of 0.8 m leaves a hull of 0.55 m this much on either side, less 2 cm.
 constexpr double kDoor_m = 0.105;
 
@@ -100,12 +105,17 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   const Slowed slowed = slowedFor(risk, input.velocity_level_m_s, ahead, intended_m_s, latency_s);
   if (slowed.speed_m_s < intended_m_s) decision.speed_limit_m_s = slowed.speed_m_s;
 
+  const double worth = (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
+  for (std::size_t i = 0; i < slowed.contacts.size(); ++i)
+    around[walking[i].obstacle].closing = slowed.contacts[i] > worth;
   const RetreatChoice choice = retreat(input, points, around, walking, risk, latency_s);
-  const bool leaves = slowed.contact - choice.contact > (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
-  if (leaves) danger_ = whyLeaving(walking);
+  const bool leaves = slowed.contact - choice.contact > worth;
+  decision.nothing_free = whyNothingIsFree(input, risk, std::min(slowed.contact, choice.contact), latency_s);
+  const bool closed_in = leaves || !decision.nothing_free.empty();
+  if (closed_in) danger_ = whyLeaving(walking);
   const auto danger = std::ranges::find_if(around, &Threat::dangerous);
   if (danger != around.end()) danger_ = danger->why;
-  if (leaves || danger != around.end()) {
+  if (closed_in || danger != around.end()) {
     danger_stamp_ = input.stamp;
     retreating_ = true;
   } else if (retreating_ && (input.stamp - danger_stamp_).seconds() > kCalm_s) {
@@ -212,12 +222,13 @@ bool Avoidance::isSeen(const Point& direction) const {
 std::vector<NearPerson> Avoidance::people(const AvoidanceInput& input) const {
   std::vector<NearPerson> result;
   const common::Pose2 T_level_map = input.T_map_level.inverse();
-  for (const common::DynamicObstacle& o : input.obstacles) {
+  for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
+    const common::DynamicObstacle& o = input.obstacles[i];
     if (!o.moving) continue;
     const double unseen_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
     const Point place = T_level_map * Point(o.center_map_m + o.velocity_map_m_s * unseen_s);
     if (place.norm() > kPersonRange_m) continue;
-    result.push_back({place, Eigen::Rotation2Dd(T_level_map.yaw_rad) * o.velocity_map_m_s, o.radius_m, unseen_s});
+    result.push_back({place, Eigen::Rotation2Dd(T_level_map.yaw_rad) * o.velocity_map_m_s, o.radius_m, unseen_s, i});
   }
   return result;
 }
@@ -231,21 +242,32 @@ std::string Avoidance::whyLeaving(const std::vector<NearPerson>& people) const {
 /// The greatest speed ahead at which about the least is risked.
 Avoidance::Slowed Avoidance::slowedFor(const ContactRisk& risk, const Point& velocity_level_m_s, const Point& ahead,
                                        double intended_m_s, double latency_s) const {
-  if (!risk.anybody()) return {intended_m_s, 0.0};
+  if (!risk.anybody()) return {intended_m_s, 0.0, {}};
   constexpr int kSpeeds = 5;
-  constexpr double kAlways_s = ContactRisk::kSteps * ContactRisk::kStep_s;
   std::array<Slowed, kSpeeds> options;
+  std::array<ContactRisk::Course, kSpeeds> courses;
   double least = 1.0;
   const int first = intended_m_s > 0.0 ? 0 : kSpeeds - 1;
   for (int i = first; i < kSpeeds; ++i) {
     const double speed_m_s = intended_m_s * (kSpeeds - 1 - i) / (kSpeeds - 1);
-    const auto course =
-        courseOf(velocity_level_m_s, speed_m_s * ahead, kAlways_s, latency_s, config_.deceleration_m_s2);
-    options.at(i) = {speed_m_s, risk.of(course)};
+    courses.at(i) = courseOf(velocity_level_m_s, speed_m_s * ahead, kAlways_s, latency_s, config_.deceleration_m_s2);
+    options.at(i) = {speed_m_s, risk.of(courses.at(i)), {}};
     least = std::min(least, options.at(i).contact);
   }
-  return *std::find_if(options.begin() + first, options.end(),
-                       [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
+  const auto best = std::find_if(options.begin() + first, options.end(),
+                                 [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
+  best->contacts = risk.ofEach(courses.at(static_cast<std::size_t>(best - options.begin())));
+  return *best;
+}
+
+/// `least`: the probability on the best course. Where another one is better than standing, it is flown.
+std::string Avoidance::whyNothingIsFree(const AvoidanceInput& input, const ContactRisk& risk, double least,
+                                        double latency_s) const {
+  if (least < kNothingFree) return {};
+  const double standing =
+      risk.of(courseOf(input.velocity_level_m_s, Point::Zero(), 0.0, latency_s, config_.deceleration_m_s2));
+  if (standing > least + kWorthLeaving) return {};
+  return fmt::format("no course is free of people: met with a probability of {:.2f} within {:.0f} s", least, kAlways_s);
 }
 
 /// Turning is worth its errors in a retreat, and while somebody walks about, also where that person is out of sight for
@@ -275,15 +297,13 @@ RetreatChoice Avoidance::retreat(const AvoidanceInput& input, const Points& poin
       standing.push_back(p);
   const RetreatInput retreat{input.velocity_level_m_s, standing,       threats,   last_retreat_level_,
                              input.T_map_level,        input.cost_map, latency_s, &risk};
-  switch (config_.retreat_rule) {
-    case RetreatRule::kOpposite:
-      return {oppositeVelocity(config_, hull_radius_m_, retreat), 0.0};
-    case RetreatRule::kPotentialField:
-      return {potentialFieldVelocity(config_, hull_radius_m_, retreat), 0.0};
-    case RetreatRule::kClearCourse:
-      break;
-  }
-  return retreatChoice(config_, hull_radius_m_, retreat);
+  if (config_.retreat_rule == RetreatRule::kClearCourse) return retreatChoice(config_, hull_radius_m_, retreat);
+  const Point velocity_level_m_s = config_.retreat_rule == RetreatRule::kOpposite
+                                       ? oppositeVelocity(config_, hull_radius_m_, retreat)
+                                       : potentialFieldVelocity(config_, hull_radius_m_, retreat);
+  const auto course =
+      courseOf(input.velocity_level_m_s, velocity_level_m_s, kAlways_s, latency_s, config_.deceleration_m_s2);
+  return {velocity_level_m_s, risk.of(course)};
 }
 
 }  // namespace swiftlet::planning

@@ -247,6 +247,53 @@ TEST(Avoidance, AvoidsAPersonWhoWalksTowardsIt) {
   }
 }
 
+// In a dead end one person is enough, in the open two are not: a descent is for where nothing is free.
+TEST(Avoidance, SaysThatNothingIsFreeInADeadEndOnly) {
+  const auto said = [](bool dead_end) {
+    Story story;
+    story.pose = {8.9, 4.0, std::numbers::pi};
+    if (dead_end) {
+      story.addWall({{120, 66}, {200, 70}});  // Between y = 3.5 m and 4.5 m, as far as x = 10 m.
+      story.addWall({{120, 90}, {200, 94}});
+    }
+    story.people = {{{5.5, 4.0}, {1.0, 0.0}}};
+    int ticks = 0;
+    for (double t = 0.0; t < 3.0; t += kTick_s) ticks += !story.tick(Point::Zero()).nothing_free.empty();
+    return ticks;
+  };
+  EXPECT_GT(said(true), 12) << "for 0.3 s at least";
+  EXPECT_EQ(said(false), 0);
+}
+
+/// Also by the rules of the papers: a person who comes straight on is a reason to leave before being near.
+TEST(Avoidance, EachRuleLeavesForWhoClosesIn) {
+  for (const RetreatRule rule : {RetreatRule::kClearCourse, RetreatRule::kOpposite}) {
+    Avoidance::Config config;
+    config.retreat_rule = rule;
+    Story story(200, 160, config);
+    story.people = {{{8.0, 4.1}, {-1.0, 0.0}}};
+    double gap_m = 0.0;
+    for (double t = 0.0; t < 3.0 && story.retreats == 0; t += kTick_s) {
+      (void)story.tick(Point::Zero());
+      gap_m = (story.people[0].place_map_m - story.pose.position_m()).norm() - story.people[0].radius_m - kHull_m;
+    }
+    EXPECT_GT(story.retreats, 0) << static_cast<int>(rule);
+    EXPECT_GT(gap_m, config.retreat_distance_m + 0.3) << static_cast<int>(rule);
+  }
+}
+
+/// A rule whose course does not help is no reason to stand still: the vehicle goes on as slowly as it must.
+TEST(Avoidance, ARuleThatHasNoCourseDoesNotHoldTheVehicle) {
+  Avoidance::Config config;
+  config.retreat_rule = RetreatRule::kPotentialField;
+  Story story(200, 160, config);
+  story.people = {{{7.0, 6.0}, {0.3, 0.0}}};  // Walks by, too far off for the field.
+  for (double t = 0.0; t < 2.0; t += kTick_s) {
+    const auto decision = story.tick({-0.5, 0.0});
+    EXPECT_FALSE(decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->isZero()) << t;
+  }
+}
+
 TEST(Avoidance, RemembersAPersonBehindIt) {
   // Seen while it passed from the front to the side, then in the rear 90 deg: the memory prevents a flight backwards.
   Story story;
