@@ -129,8 +129,8 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   measureHeight(outcome, T_odom_body, now);
 
-  const perception::ProjectedScan mapped = perception::withoutWalkers(
-      people_.walkersAt(outcome.scan.stamp), outcome.T_map_body, outcome.scan);
+  const perception::ProjectedScan mapped =
+      perception::withoutWalkers(people_.walkersAt(outcome.scan.stamp), outcome.T_map_body, outcome.scan);
   const MapStep map = map_.add({mapped, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;

@@ -114,9 +114,8 @@ ProjectedScan withoutWalkers(std::span<const Disc> walkers, const Pose2& T_map_b
       continue;
     }
     const float share = 1.0F - kBefore_m / std::max(kBefore_m, end.norm());
-    drawn.misses_level_m.emplace_back(
-        share * end.x(), share * end.y(),
-        scan.laser_height_level_m + share * (height_m - scan.laser_height_level_m));
+    drawn.misses_level_m.emplace_back(share * end.x(), share * end.y(),
+                                      scan.laser_height_level_m + share * (height_m - scan.laser_height_level_m));
   }
   return drawn;
 }

@@ -3,8 +3,8 @@
 //
 //   scan, pose in the map --> points in the hull's height band --> compared with the earlier map --> DynamicObstacles
 //
-// The result serves matching (points on moving people would bias a match), the map (which shows what stands), avoidance,
-// and the planner's costs.
+// The result serves matching (points on moving people would bias a match), the map (which shows what stands),
+// avoidance, and the planner's costs.
 #pragma once
 
 #include <memory>
@@ -72,9 +72,10 @@ class PeopleTracker {
 /// Marks the end points on people (ProjectedScan::moves).
 void markPeople(std::span<const common::Disc> people, const common::Pose2& T_map_body, ProjectedScan& scan);
 
-/// The scan for the map: a beam that ends on somebody who walks says only that the way there is free. Drawn as occupied,
-/// each walker would leave a trace for seconds, which explains the next one who walks there and closes the way behind
-/// the first (Haehnel, Triebel, Burgard, Thrun: "Map building with mobile robots in dynamic environments", 2003).
+/// The scan for the map: a beam that ends on somebody who walks says only that the way there is free. Drawn as
+/// occupied, each walker would leave a trace for seconds, which explains the next one who walks there and closes the
+/// way behind the first (Haehnel, Triebel, Burgard, Thrun: "Map building with mobile robots in dynamic environments",
+/// 2003).
 ProjectedScan withoutWalkers(std::span<const common::Disc> walkers, const common::Pose2& T_map_body,
                              const ProjectedScan& scan);
 

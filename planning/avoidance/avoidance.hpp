@@ -108,8 +108,8 @@ class Avoidance {
   /// The best that braking on the path can do.
   struct Slowed {
     double speed_m_s = 0.0;
-    double contact = 0.0;             ///< Probability that a person is met at that speed.
-    std::vector<double> contacts;     ///< Of each person.
+    double contact = 0.0;          ///< Probability that a person is met at that speed.
+    std::vector<double> contacts;  ///< Of each person.
   };
   Slowed slowedFor(const ContactRisk& risk, const Eigen::Vector2d& velocity_level_m_s, const Eigen::Vector2d& ahead,
                    double intended_m_s, double latency_s) const;

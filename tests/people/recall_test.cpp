@@ -55,10 +55,10 @@ simulation::WorldModel hall() {
 
 std::vector<simulation::WalkerConfig> sixPeople() {
   const auto path = [](std::vector<double> path_world_m, double speed_m_s) {
-    return simulation::WalkerConfig{simulation::WalkerMode::kPath, std::move(path_world_m), simulation::WalkerEnd::kLoop,
-                                    speed_m_s};
+    return simulation::WalkerConfig{simulation::WalkerMode::kPath, std::move(path_world_m),
+                                    simulation::WalkerEnd::kLoop, speed_m_s};
   };
-  return {path({1, 9, 11, 9, 11, 1, 1, 1}, 0.9), path({11, 5, 1, 5}, 1.1),     path({6, 1, 6, 9}, 0.8),
+  return {path({1, 9, 11, 9, 11, 1, 1, 1}, 0.9),   path({11, 5, 1, 5}, 1.1),      path({6, 1, 6, 9}, 0.8),
           path({9.5, 9, 4, 9, 4, 1.2, 4, 9}, 1.2), path({9, 9, 9, 5, 2, 5}, 0.7), path({11, 8, 5, 2}, 1.0)};
 }
 
@@ -122,20 +122,23 @@ class Hall {
     for (const auto& actor : people()) before.push_back(actor.position_world_m);
     for (auto& walker : walkers_) walker.step(now, {}, kScan_s);
     const auto actors = people();
-    const std::vector<simulation::Moment> track{{now, poseAt(time_s, tilt_rad_), actors},
-                                                {now + common::Duration::fromSeconds(kScan_s), poseAt(time_s + kScan_s, tilt_rad_), actors}};
+    const std::vector<simulation::Moment> track{
+        {now, poseAt(time_s, tilt_rad_), actors},
+        {now + common::Duration::fromSeconds(kScan_s), poseAt(time_s + kScan_s, tilt_rad_), actors}};
     const ProjectedScan scan = project(
-        scanner_.scan(frame, now, track, rays_), laser_, [&](Time t) { return poseAt(t.seconds(), tilt_rad_); }, projection_);
+        scanner_.scan(frame, now, track, rays_), laser_, [&](Time t) { return poseAt(t.seconds(), tilt_rad_); },
+        projection_);
     const Pose2 T_map_body = common::planar(poseAt(scan.stamp.seconds(), tilt_rad_));
     draw(scan, T_map_body);
     tracker_.update(scan, T_map_body, {}, grid_);
     for (std::size_t i = 0; i < actors.size(); ++i)
-      judge(now, scan, T_map_body, actors[i], before.size() > i ? Point((actors[i].position_world_m - before[i]) / kScan_s) : Point(0, 0),
-            watched_[i]);
+      judge(now, scan, T_map_body, actors[i],
+            before.size() > i ? Point((actors[i].position_world_m - before[i]) / kScan_s) : Point(0, 0), watched_[i]);
     for (const auto& o : tracker_.obstacles())
-      recall_.false_walkers += o.moving && o.last_seen == scan.stamp && std::ranges::none_of(actors, [&](const auto& actor) {
-                                 return (actor.position_world_m - o.center_map_m).norm() < 2.0 * kSame_m;
-                               });
+      recall_.false_walkers +=
+          o.moving && o.last_seen == scan.stamp && std::ranges::none_of(actors, [&](const auto& actor) {
+            return (actor.position_world_m - o.center_map_m).norm() < 2.0 * kSame_m;
+          });
   }
 
   void draw(const ProjectedScan& scan, const Pose2& T_map_body) {
@@ -167,7 +170,8 @@ class Hall {
     watched.last_view = now;
     const common::DynamicObstacle* found = nullptr;
     for (const auto& o : tracker_.obstacles())
-      if (o.moving && (now - o.last_seen).seconds() < 0.1 && (o.center_map_m - actor.position_world_m).norm() < kSame_m) found = &o;
+      if (o.moving && (now - o.last_seen).seconds() < 0.1 && (o.center_map_m - actor.position_world_m).norm() < kSame_m)
+        found = &o;
     if (found != nullptr && !watched.tracked) watched.tracked = now;
     if ((now - *watched.in_view).seconds() < kNoticed_s) return;
     ++recall_.scans;
@@ -205,9 +209,10 @@ TEST(PeopleRecall, SixPeopleInAHallByTheTiltOfTheVehicle) {
     const Recall recall = Hall(tilt_deg * common::kRadPerDeg).watch(90.0);
     const auto share = [&](int count) { return static_cast<double>(count) / recall.scans; };
     const auto until = [&](double q) { return common::quantile(recall.until_tracked_s, q); };
-    std::printf("%.0f deg: tracked %.3f, with its velocity %.3f of %d; until then %.2f s, p90 %.2f s, of %zu; false %d\n",
-                tilt_deg, share(recall.tracked), share(recall.right_course), recall.scans, until(0.5), until(0.9),
-                recall.until_tracked_s.size(), recall.false_walkers);
+    std::printf(
+        "%.0f deg: tracked %.3f, with its velocity %.3f of %d; until then %.2f s, p90 %.2f s, of %zu; false %d\n",
+        tilt_deg, share(recall.tracked), share(recall.right_course), recall.scans, until(0.5), until(0.9),
+        recall.until_tracked_s.size(), recall.false_walkers);
     EXPECT_GT(share(recall.tracked), least_share) << tilt_deg;
     EXPECT_LT(until(0.9), 1.0) << tilt_deg;
     EXPECT_EQ(recall.false_walkers, 0) << tilt_deg;
