@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/possible_walks.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -72,7 +74,7 @@ std::vector<Disc> PeopleTracker::justSeen(common::Time stamp, bool walkers_only)
   std::vector<Disc> result;
   for (const common::DynamicObstacle& o : obstacles()) {
     const double age_s = (stamp - o.last_seen).seconds();
-    if (age_s > kJustSeen_s || (walkers_only && !o.moving)) continue;
+    if (age_s > kJustSeen_s || (walkers_only && o.believedVelocity_map_m_s().norm() < common::kStands_m_s)) continue;
     result.push_back({o.center_map_m + o.believedVelocity_map_m_s() * age_s, o.radius_m + kAround_m});
   }
   return result;

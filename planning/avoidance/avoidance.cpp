@@ -106,8 +106,6 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   if (slowed.speed_m_s < intended_m_s) decision.speed_limit_m_s = slowed.speed_m_s;
 
   const double worth = (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
-  for (std::size_t i = 0; i < slowed.contacts.size(); ++i)
-    around[walking[i].obstacle].closing = slowed.contacts[i] > worth;
   const RetreatChoice choice = retreat(input, points, around, walking, risk, latency_s);
   const bool leaves = slowed.contact - choice.contact > worth;
   decision.nothing_free = whyNothingIsFree(input, risk, std::min(slowed.contact, choice.contact), latency_s);
@@ -222,13 +220,12 @@ bool Avoidance::isSeen(const Point& direction) const {
 std::vector<NearPerson> Avoidance::people(const AvoidanceInput& input) const {
   std::vector<NearPerson> result;
   const common::Pose2 T_level_map = input.T_map_level.inverse();
-  for (std::size_t i = 0; i < input.obstacles.size(); ++i) {
-    const common::DynamicObstacle& o = input.obstacles[i];
+  for (const common::DynamicObstacle& o : input.obstacles) {
     if (!o.moving) continue;
     const double unseen_s = std::max(0.0, (input.stamp - o.last_seen).seconds());
     const Point place = T_level_map * Point(o.center_map_m + o.velocity_map_m_s * unseen_s);
     if (place.norm() > kPersonRange_m) continue;
-    result.push_back({place, Eigen::Rotation2Dd(T_level_map.yaw_rad) * o.velocity_map_m_s, o.radius_m, unseen_s, i});
+    result.push_back({place, Eigen::Rotation2Dd(T_level_map.yaw_rad) * o.velocity_map_m_s, o.radius_m, unseen_s});
   }
   return result;
 }
@@ -242,22 +239,20 @@ std::string Avoidance::whyLeaving(const std::vector<NearPerson>& people) const {
 /// The greatest speed ahead at which about the least is risked.
 Avoidance::Slowed Avoidance::slowedFor(const ContactRisk& risk, const Point& velocity_level_m_s, const Point& ahead,
                                        double intended_m_s, double latency_s) const {
-  if (!risk.anybody()) return {intended_m_s, 0.0, {}};
+  if (!risk.anybody()) return {intended_m_s, 0.0};
   constexpr int kSpeeds = 5;
   std::array<Slowed, kSpeeds> options;
-  std::array<ContactRisk::Course, kSpeeds> courses;
   double least = 1.0;
   const int first = intended_m_s > 0.0 ? 0 : kSpeeds - 1;
   for (int i = first; i < kSpeeds; ++i) {
     const double speed_m_s = intended_m_s * (kSpeeds - 1 - i) / (kSpeeds - 1);
-    courses.at(i) = courseOf(velocity_level_m_s, speed_m_s * ahead, kAlways_s, latency_s, config_.deceleration_m_s2);
-    options.at(i) = {speed_m_s, risk.of(courses.at(i)), {}};
+    const auto course =
+        courseOf(velocity_level_m_s, speed_m_s * ahead, kAlways_s, latency_s, config_.deceleration_m_s2);
+    options.at(i) = {speed_m_s, risk.of(course)};
     least = std::min(least, options.at(i).contact);
   }
-  const auto best = std::find_if(options.begin() + first, options.end(),
-                                 [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
-  best->contacts = risk.ofEach(courses.at(static_cast<std::size_t>(best - options.begin())));
-  return *best;
+  return *std::find_if(options.begin() + first, options.end(),
+                       [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
 }
 
 /// `least`: the probability on the best course. Where another one is better than standing, it is flown.

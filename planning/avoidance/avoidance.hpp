@@ -105,11 +105,9 @@ class Avoidance {
   bool isSeen(const Eigen::Vector2d& direction) const;
   std::vector<NearPerson> people(const AvoidanceInput& input) const;
   std::string whyLeaving(const std::vector<NearPerson>& people) const;
-  /// The best that braking on the path can do.
   struct Slowed {
     double speed_m_s = 0.0;
-    double contact = 0.0;          ///< Probability that a person is met at that speed.
-    std::vector<double> contacts;  ///< Of each person.
+    double contact = 0.0;  ///< Probability that a person is met at that speed.
   };
   Slowed slowedFor(const ContactRisk& risk, const Eigen::Vector2d& velocity_level_m_s, const Eigen::Vector2d& ahead,
                    double intended_m_s, double latency_s) const;

@@ -71,11 +71,7 @@ double ContactRisk::of(const Course& course) const {
   return 1.0 - none;
 }
 
-std::vector<double> ContactRisk::ofEach(const Course& course) const {
-  std::vector<double> each;
-  for (const Person& person : people_) each.push_back(of(course, person));
-  return each;
-}
+double ContactRisk::of(const Course& course, std::size_t person) const { return of(course, people_.at(person)); }
 
 double ContactRisk::of(const Course& course, const Person& person) const {
   double sum = 0.0;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -17,8 +16,7 @@ struct NearPerson {
   Eigen::Vector2d place_m;  ///< Now; of one who is out of sight, predicted from the last sighting.
   Eigen::Vector2d velocity_m_s;
   double radius_m;
-  double unseen_s;           ///< Since the last sighting.
-  std::size_t obstacle = 0;  ///< Its index among the obstacles of the input.
+  double unseen_s;  ///< Since the last sighting.
 };
 
 /// Made for one scan.
@@ -36,8 +34,8 @@ class ContactRisk {
   bool anybody() const { return !people_.empty(); }
   /// In [0, 1]: that anybody is met.
   double of(const Course& course) const;
-  /// Of each person.
-  std::vector<double> ofEach(const Course& course) const;
+  /// Of the person with that index.
+  double of(const Course& course, std::size_t person) const;
 
  private:
   struct Walk {

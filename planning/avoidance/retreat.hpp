@@ -23,7 +23,6 @@ struct Threat {
   Eigen::Vector2d velocity_m_s;
   bool dangerous;
   std::string why;
-  bool closing = false;  ///< A person who may be met on the best course along the path.
 
   /// The gap to the hull after `time_s`, if the vehicle has moved by `moved_m`. Negative if they overlap.
   double gapTo(double hull_radius_m, const Eigen::Vector2d& moved_m, double time_s) const {

@@ -26,7 +26,7 @@ Vector2d oppositeVelocity(const AvoidanceConfig& config, double hull_radius_m, c
   double least_m = std::numeric_limits<double>::infinity();
   for (const Threat& threat : input.threats) {
     const double gap_m = threat.gapTo(hull_radius_m, Vector2d::Zero(), 0.0);
-    if (!(threat.dangerous || threat.closing) || threat.center_m.isZero() || gap_m >= least_m) continue;
+    if (!threat.dangerous || threat.center_m.isZero() || gap_m >= least_m) continue;
     least_m = gap_m;
     nearest = &threat;
   }

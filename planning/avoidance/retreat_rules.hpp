@@ -9,8 +9,8 @@
 
 namespace swiftlet::planning {
 
-/// At `retreat_speed_m_s` away from the nearest threat that is dangerous or closing in: the waypoint 180 deg from the
-/// collision bin (Saeedi, III-G). In the level frame; zero without such a threat.
+/// At `retreat_speed_m_s` away from the nearest dangerous threat: the waypoint 180 deg from the collision bin (Saeedi,
+/// III-G). In the level frame; zero without a dangerous threat.
 Eigen::Vector2d oppositeVelocity(const AvoidanceConfig& config, double hull_radius_m, const RetreatInput& input);
 
 /// Along the sum of the repulsive forces of all returns and threats within 1 m of the hull, each (1 / d - 1

@@ -265,23 +265,6 @@ TEST(Avoidance, SaysThatNothingIsFreeInADeadEndOnly) {
   EXPECT_EQ(said(false), 0);
 }
 
-/// Also by the rules of the papers: a person who comes straight on is a reason to leave before being near.
-TEST(Avoidance, EachRuleLeavesForWhoClosesIn) {
-  for (const RetreatRule rule : {RetreatRule::kClearCourse, RetreatRule::kOpposite}) {
-    Avoidance::Config config;
-    config.retreat_rule = rule;
-    Story story(200, 160, config);
-    story.people = {{{8.0, 4.1}, {-1.0, 0.0}}};
-    double gap_m = 0.0;
-    for (double t = 0.0; t < 3.0 && story.retreats == 0; t += kTick_s) {
-      (void)story.tick(Point::Zero());
-      gap_m = (story.people[0].place_map_m - story.pose.position_m()).norm() - story.people[0].radius_m - kHull_m;
-    }
-    EXPECT_GT(story.retreats, 0) << static_cast<int>(rule);
-    EXPECT_GT(gap_m, config.retreat_distance_m + 0.3) << static_cast<int>(rule);
-  }
-}
-
 /// A rule whose course does not help is no reason to stand still: the vehicle goes on as slowly as it must.
 TEST(Avoidance, ARuleThatHasNoCourseDoesNotHoldTheVehicle) {
   Avoidance::Config config;

@@ -61,7 +61,7 @@ TEST(ContactRisk, WhoIsOutOfSightIsNotGone) {
 TEST(ContactRisk, TwoPeopleAreMoreThanOne) {
   const std::vector<NearPerson> people{{{2.0, 0.0}, {-1.0, 0.0}, 0.25, 0.0}, {{-2.0, 0.0}, {1.0, 0.0}, 0.25, 0.0}};
   const ContactRisk risk(kRadius_m, people);
-  EXPECT_GT(risk.of(standing()), risk.ofEach(standing()).at(0));
+  EXPECT_GT(risk.of(standing()), risk.of(standing(), 0));
   EXPECT_LE(risk.of(standing()), 1.0);
 }
 
