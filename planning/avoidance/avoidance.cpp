@@ -292,13 +292,15 @@ RetreatChoice Avoidance::retreat(const AvoidanceInput& input, const Points& poin
       standing.push_back(p);
   const RetreatInput retreat{input.velocity_level_m_s, standing,       threats,   last_retreat_level_,
                              input.T_map_level,        input.cost_map, latency_s, &risk};
-  if (config_.retreat_rule == RetreatRule::kClearCourse) return retreatChoice(config_, hull_radius_m_, retreat);
-  const Point velocity_level_m_s = config_.retreat_rule == RetreatRule::kOpposite
-                                       ? oppositeVelocity(config_, hull_radius_m_, retreat)
-                                       : potentialFieldVelocity(config_, hull_radius_m_, retreat);
-  const auto course =
-      courseOf(input.velocity_level_m_s, velocity_level_m_s, kAlways_s, latency_s, config_.deceleration_m_s2);
-  return {velocity_level_m_s, risk.of(course)};
+  switch (config_.retreat_rule) {
+    case RetreatRule::kOpposite:
+      return {oppositeVelocity(config_, hull_radius_m_, retreat), 0.0};
+    case RetreatRule::kPotentialField:
+      return {potentialFieldVelocity(config_, hull_radius_m_, retreat), 0.0};
+    case RetreatRule::kClearCourse:
+      break;
+  }
+  return retreatChoice(config_, hull_radius_m_, retreat);
 }
 
 }  // namespace swiftlet::planning

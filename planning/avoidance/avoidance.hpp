@@ -77,7 +77,7 @@ struct Bin {
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
-/// hull, when the course of its rule lowers the probability of meeting a person (ContactRisk), or when no course does
+/// hull, when leaving lowers the probability of meeting a person (ContactRisk), or when no course does
 /// though somebody is likely met. For mapped, static obstacles it only
 /// brakes, unless it flies at them too fast to stop, which no intent requests: it does so where its position is
 /// corrected, or a gust pushes it. All distances are from the hull.

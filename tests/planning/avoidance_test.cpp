@@ -265,18 +265,6 @@ TEST(Avoidance, SaysThatNothingIsFreeInADeadEndOnly) {
   EXPECT_EQ(said(false), 0);
 }
 
-/// A rule whose course does not help is no reason to stand still: the vehicle goes on as slowly as it must.
-TEST(Avoidance, ARuleThatHasNoCourseDoesNotHoldTheVehicle) {
-  Avoidance::Config config;
-  config.retreat_rule = RetreatRule::kPotentialField;
-  Story story(200, 160, config);
-  story.people = {{{7.0, 6.0}, {0.3, 0.0}}};  // Walks by, too far off for the field.
-  for (double t = 0.0; t < 2.0; t += kTick_s) {
-    const auto decision = story.tick({-0.5, 0.0});
-    EXPECT_FALSE(decision.retreat_velocity_level_m_s && decision.retreat_velocity_level_m_s->isZero()) << t;
-  }
-}
-
 TEST(Avoidance, RemembersAPersonBehindIt) {
   // Seen while it passed from the front to the side, then in the rear 90 deg: the memory prevents a flight backwards.
   Story story;
