@@ -14,6 +14,7 @@
 #include "common/world/vehicle_layer.hpp"
 #include "control/actuation.hpp"
 #include "control/flight_state_machine.hpp"
+#include "planning/costs/landing_place.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -37,6 +38,19 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
             const auto why = maps.problemOf(map);
             return why ? std::optional(common::Problem{{}, "", *why, ""}) : std::nullopt;
           }};
+}
+
+/// Why the vehicle had better come down where it is: no course is free of people, and the ground below is level. Empty
+/// if it had not.
+std::string peopleAllRound(const Percept& percept, const Navigator& navigator) {
+  const std::string& why = navigator.avoidance().nothing_free;
+  const auto map = navigator.executor().costMapHere();
+  if (why.empty() || !map || !percept.state.horizontal_valid) return {};
+  planning::LandingNeeds needs;
+  needs.hull_radius_m = map->footprint().hull_radius_m;
+  needs.reach_m = 2.0 * map->resolution_m();  // Where it is, by the cells of the map.
+  const Eigen::Vector2d here_map_m = percept.state.T_map_body_planar().position_m();
+  return planning::landingPlace(*map, percept.estimator->seenSurfaces(), here_map_m, needs) ? why : std::string();
 }
 
 }  // namespace
@@ -207,6 +221,7 @@ VehicleCondition Commander::condition(const Percept& percept, const Navigator& n
   const double age_s = std::max(state.horizontalAge_s(percept.now), condition.vertical_age_s);
   condition.position_measured = state.horizontal_valid && state.vertical_valid && age_s < kUnseenHold_s;
   condition.sensor_lies = percept.must_land;
+  condition.people_all_round = peopleAllRound(percept, navigator);
   condition.drift_m = percept.drift_m;
   if (percept.drift_m > kDriftLand_m) condition.walls_around = navigator.executor().desk().wallsAround(state);
   return condition;

@@ -135,7 +135,9 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   measureHeight(outcome, T_odom_body, now);
 
   const bool placed = outcome.matched || by_stereo;
-  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
+  const perception::ProjectedScan mapped =
+      perception::withoutWalkers(people_.walkersAt(outcome.scan.stamp), outcome.T_map_body, outcome.scan);
+  const MapStep map = map_.add({mapped, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
   if (placed) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
   poses_.scanned(outcome.scan.stamp, map.at_key, T_odom_bodyAt(outcome.scan));

@@ -34,6 +34,8 @@ constexpr double kHomeNeedFactor = 1.15;
 /// Home is out of reach when less than this share of what it takes is left: predictions differ from the truth, and from
 /// each other, by some percent.
 constexpr double kClearly = 0.8;
+/// A person whom one scan makes of a chair is gone within this time; one who comes walks 0.4 m.
+constexpr double kAllRound_s = 0.3;
 /// A gust may take the margin for a moment.
 constexpr double kThrustMargin_s = 1.0;
 
@@ -165,6 +167,9 @@ constexpr Check kAllChecks[] = {
     {FindingKind::kChargeForHome, 0.0, 0.0, chargeForHome, turnedBack, Concern::kTurnBack},
     {FindingKind::kHomeOutOfReach, 0.0, 0.0, homeOutOfReach, outOfReach, Concern::kHome},
     {FindingKind::kThrustSpent, kThrustMargin_s, 0.0, thrustSpent, thrustSpentWhy, Concern::kLanding},
+    {FindingKind::kPeopleAllRound, kAllRound_s, 0.0,
+     [](const Condition& c, const Config&, bool) { return unlessEmpty(c.people_all_round); },
+     [](const Condition& c, const Config&) { return c.people_all_round; }, Concern::kLanding},
     {FindingKind::kChargeSpent, 0.0, 0.0, chargeSpent, chargeSpentWhy, Concern::kLanding},
     {FindingKind::kBatteryUnmeasured, 0.0, 0.0,
      [](const Condition& c, const Config&, bool) {

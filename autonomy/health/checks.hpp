@@ -42,7 +42,8 @@ struct VehicleCondition {
   bool position_measured = false;
   /// What contradicts the inertial samples, for people; empty if nothing does.
   std::string sensor_lies;
-  bool lands = false;  ///< The vehicle is about to land where it is, and needs no path home.
+  std::string people_all_round;  ///< Why no course is free of people, over level ground; empty if one is.
+  bool lands = false;            ///< The vehicle is about to land where it is, and needs no path home.
 };
 
 /// A value against the bound beyond which it is a finding.

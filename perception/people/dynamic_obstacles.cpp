@@ -35,8 +35,9 @@ constexpr double kSmoothing_s = 0.15;
 /// docs/decisions/grid_map.md#007).
 constexpr double kMoved_m = 0.25, kMovedWithin_s = 1.0, kFollowed_s = 0.15, kFollowedShare = 0.5;
 /// An obstacle that was never seen this high above the body while it is kept does not count as moving: a dipping laser
-/// meets the top of a table now nearer, now farther (measured: docs/decisions/grid_map.md#072).
-constexpr double kReaches_m = -0.02;
+/// meets the top of a table now nearer, now farther (measured: docs/decisions/grid_map.md#072). The height of a beam is
+/// known to a share of its range: 1 deg of the attitude, as in perception/slam2d/sliced_map.
+constexpr double kReaches_m = -0.02, kHeightShare = 0.02;
 
 /// Whether a point lies in space that the background knows as free, with nothing occupied or unknown within `cells`.
 bool unexplained(const common::OccupancyGrid& background, const Point& point_m, int cells) {
@@ -185,7 +186,8 @@ DynamicObstacles::Track* DynamicObstacles::nearestFree(const Cluster& seen, comm
 void DynamicObstacles::update(common::Time stamp, const SeenPoints& scan, const common::OccupancyGrid& background,
                               const GivenBackground* given) {
   const auto reached = [&](const Cluster& seen) {
-    return seen.top_above_body_m >= kReaches_m ? std::optional(stamp) : std::nullopt;
+    const double unsure_m = kHeightShare * (seen.center_map_m - scan.from_map_m).norm();
+    return seen.top_above_body_m >= kReaches_m - unsure_m ? std::optional(stamp) : std::nullopt;
   };
   for (Track& track : tracks_) ++track.scans;
   const std::size_t known = tracks_.size();
@@ -241,9 +243,8 @@ void DynamicObstacles::judgeMotion(Track& track) {
   const bool moved = (o.center_map_m - track.anchor_map_m).norm() >= kMoved_m;
   const bool followed = since_s >= kFollowed_s && track.sightings >= kFollowedShare * track.scans;
   if (!(moved && followed) && since_s < kMovedWithin_s) return;
-  const bool reaches = track.reached && (o.last_seen - *track.reached).seconds() <= kTimeToLive_s;
   // A moving obstacle may have been hidden meanwhile; it remains moving.
-  o.moving = reaches && moved && (followed || o.moving);
+  o.moving = track.reached && moved && (followed || o.moving);
   track.anchor_map_m = o.center_map_m;
   track.anchor_stamp = o.last_seen;
   track.scans = track.sightings = 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/possible_walks.hpp"
+
 namespace swiftlet::perception {
 namespace {
 
@@ -20,6 +22,9 @@ constexpr double kCorrected_rad = 0.01;  ///< 5 cm at a range of 5 m.
 constexpr double kJustSeen_s = 0.15;
 /// Margin for the part of a person's outline that was not seen.
 constexpr double kAround_m = 0.20;
+
+/// A beam shows that the way is free up to this far before where it ends on somebody who walks: the depth of a body.
+constexpr float kBefore_m = 0.3F;
 
 /// Least share of a scan's points that must remain when points on people are removed.
 constexpr double kLeastShare = 0.4;
@@ -61,11 +66,15 @@ void PeopleTracker::update(const ProjectedScan& scan, const Pose2& T_map_body, c
   moved_ = std::move(moved);
 }
 
-std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const {
+std::vector<Disc> PeopleTracker::expectedAt(common::Time stamp) const { return justSeen(stamp, false); }
+
+std::vector<Disc> PeopleTracker::walkersAt(common::Time stamp) const { return justSeen(stamp, true); }
+
+std::vector<Disc> PeopleTracker::justSeen(common::Time stamp, bool walkers_only) const {
   std::vector<Disc> result;
   for (const common::DynamicObstacle& o : obstacles()) {
     const double age_s = (stamp - o.last_seen).seconds();
-    if (age_s > kJustSeen_s) continue;
+    if (age_s > kJustSeen_s || (walkers_only && o.believedVelocity_map_m_s().norm() < common::kStands_m_s)) continue;
     result.push_back({o.center_map_m + o.believedVelocity_map_m_s() * age_s, o.radius_m + kAround_m});
   }
   return result;
@@ -89,6 +98,28 @@ void markPeople(std::span<const Disc> people, const Pose2& T_map_body, Projected
   scan.moves.clear();
   if (people.empty()) return;
   for (const Eigen::Vector2f& point_m : scan.points_level_m) scan.moves.push_back(isOnAny(people, T_map_body, point_m));
+}
+
+ProjectedScan withoutWalkers(std::span<const Disc> walkers, const Pose2& T_map_body, const ProjectedScan& scan) {
+  ProjectedScan drawn = scan;
+  if (walkers.empty()) return drawn;
+  drawn.points_level_m.clear();
+  drawn.heights_level_m.clear();
+  drawn.moves.clear();
+  for (std::size_t i = 0; i < scan.points_level_m.size(); ++i) {
+    const Eigen::Vector2f& end = scan.points_level_m[i];
+    const float height_m = i < scan.heights_level_m.size() ? scan.heights_level_m[i] : 0.0F;
+    if (!isOnAny(walkers, T_map_body, end)) {
+      drawn.points_level_m.push_back(end);
+      drawn.heights_level_m.push_back(height_m);
+      if (!scan.moves.empty()) drawn.moves.push_back(scan.moves[i]);
+      continue;
+    }
+    const float share = 1.0F - kBefore_m / std::max(kBefore_m, end.norm());
+    drawn.misses_level_m.emplace_back(share * end.x(), share * end.y(),
+                                      scan.laser_height_level_m + share * (height_m - scan.laser_height_level_m));
+  }
+  return drawn;
 }
 
 ProjectedScan withoutPeople(std::span<const Disc> people, const Pose2& T_map_body, ProjectedScan scan) {

@@ -3,7 +3,8 @@
 //
 //   scan, pose in the map --> points in the hull's height band --> compared with the earlier map --> DynamicObstacles
 //
-// The result serves matching (points on moving people would bias a match), avoidance, and the planner's costs.
+// The result serves matching (points on moving people would bias a match), the map (which shows what stands),
+// avoidance, and the planner's costs.
 #pragma once
 
 #include <memory>
@@ -49,6 +50,8 @@ class PeopleTracker {
   bool anyMoves() const { return obstacles_.anyMoves(); }
   /// The obstacles seen just before `stamp`, predicted to it. Each disc covers the whole outline of a person.
   std::vector<common::Disc> expectedAt(common::Time stamp) const;
+  /// Those of them who walk.
+  std::vector<common::Disc> walkersAt(common::Time stamp) const;
   /// The obstacles that move or have moved since they are tracked, also while they stand or are not seen. They are
   /// predicted to `stamp`, with room for what they may do meanwhile.
   std::vector<common::Disc> movingAt(common::Time stamp) const;
@@ -56,6 +59,8 @@ class PeopleTracker {
   std::vector<common::Disc> discs(common::Time now) const { return obstacles_.discs(now); }
 
  private:
+  std::vector<common::Disc> justSeen(common::Time stamp, bool walkers_only) const;
+
   HeightBand band_;
   BackgroundMap background_{common::Duration::fromSeconds(DynamicObstacles::kBackgroundAge_s)};
   common::Pose2 T_map_odom_;
@@ -66,6 +71,13 @@ class PeopleTracker {
 
 /// Marks the end points on people (ProjectedScan::moves).
 void markPeople(std::span<const common::Disc> people, const common::Pose2& T_map_body, ProjectedScan& scan);
+
+/// The scan for the map: a beam that ends on somebody who walks says only that the way there is free. Drawn as
+/// occupied, each walker would leave a trace for seconds, which explains the next one who walks there and closes the
+/// way behind the first (Haehnel, Triebel, Burgard, Thrun: "Map building with mobile robots in dynamic environments",
+/// 2003).
+ProjectedScan withoutWalkers(std::span<const common::Disc> walkers, const common::Pose2& T_map_body,
+                             const ProjectedScan& scan);
 
 /// The scan without its end points on people, whose motion would bias a match. If too few points would remain to match,
 /// the whole scan. Beams without return and mirror points stay.

@@ -27,6 +27,9 @@ constexpr double kSameBody_m = 0.3;
 constexpr double kPersonRange_m = 6.0;
 /// The vehicle leaves its path, or its place, where that lowers the probability of meeting a person by this much.
 constexpr double kWorthLeaving = 0.04;
+/// Where the probability is this high on every course, none is free: that of a person who comes straight on and is 2 s
+/// away (half of them go on, and what is later than 1.5 s counts less than half: ContactRisk).
+constexpr double kNothingFree = 0.2;
 /// It slows down on its path where that lowers the probability by this much.
 constexpr double kWorthSlowing = 0.02;
 /// An obstacle that approaches more slowly than this does not count as moving.
@@ -35,6 +38,8 @@ constexpr double kClosingSpeed_m_s = 0.15;
 constexpr double kMappedWithin_m = 0.15;
 /// A retreat ends this long after the danger.
 constexpr double kCalm_s = 0.6;
+/// All of the time for which courses are predicted.
+constexpr double kAlways_s = ContactRisk::kSteps * ContactRisk::kStep_s;
 /// A door of 0.8 m leaves a hull of 0.55 m this much on either side, less 2 cm.
 constexpr double kDoor_m = 0.105;
 
@@ -100,12 +105,15 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   const Slowed slowed = slowedFor(risk, input.velocity_level_m_s, ahead, intended_m_s, latency_s);
   if (slowed.speed_m_s < intended_m_s) decision.speed_limit_m_s = slowed.speed_m_s;
 
+  const double worth = (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
   const RetreatChoice choice = retreat(input, points, around, walking, risk, latency_s);
-  const bool leaves = slowed.contact - choice.contact > (retreating_ ? 0.5 : 1.0) * kWorthLeaving;
-  if (leaves) danger_ = whyLeaving(walking);
+  const bool leaves = slowed.contact - choice.contact > worth;
+  decision.nothing_free = whyNothingIsFree(input, risk, std::min(slowed.contact, choice.contact), latency_s);
+  const bool closed_in = leaves || !decision.nothing_free.empty();
+  if (closed_in) danger_ = whyLeaving(walking);
   const auto danger = std::ranges::find_if(around, &Threat::dangerous);
   if (danger != around.end()) danger_ = danger->why;
-  if (leaves || danger != around.end()) {
+  if (closed_in || danger != around.end()) {
     danger_stamp_ = input.stamp;
     retreating_ = true;
   } else if (retreating_ && (input.stamp - danger_stamp_).seconds() > kCalm_s) {
@@ -233,7 +241,6 @@ Avoidance::Slowed Avoidance::slowedFor(const ContactRisk& risk, const Point& vel
                                        double intended_m_s, double latency_s) const {
   if (!risk.anybody()) return {intended_m_s, 0.0};
   constexpr int kSpeeds = 5;
-  constexpr double kAlways_s = ContactRisk::kSteps * ContactRisk::kStep_s;
   std::array<Slowed, kSpeeds> options;
   double least = 1.0;
   const int first = intended_m_s > 0.0 ? 0 : kSpeeds - 1;
@@ -246,6 +253,16 @@ Avoidance::Slowed Avoidance::slowedFor(const ContactRisk& risk, const Point& vel
   }
   return *std::find_if(options.begin() + first, options.end(),
                        [&](const Slowed& one) { return one.contact <= least + kWorthSlowing; });
+}
+
+/// `least`: the probability on the best course. Where another one is better than standing, it is flown.
+std::string Avoidance::whyNothingIsFree(const AvoidanceInput& input, const ContactRisk& risk, double least,
+                                        double latency_s) const {
+  if (least < kNothingFree) return {};
+  const double standing =
+      risk.of(courseOf(input.velocity_level_m_s, Point::Zero(), 0.0, latency_s, config_.deceleration_m_s2));
+  if (standing > least + kWorthLeaving) return {};
+  return fmt::format("no course is free of people: met with a probability of {:.2f} within {:.0f} s", least, kAlways_s);
 }
 
 /// Turning is worth its errors in a retreat, and while somebody walks about, also where that person is out of sight for

@@ -58,6 +58,9 @@ struct AvoidanceDecision {
   /// While people are about: the angle to turn so that the laser sees what matters most, see Lookout.
   std::optional<double> turn_rad;
   std::optional<Eigen::Vector2d> nearest_level_m;  ///< The nearest return, without keep-out zones.
+  /// Why no course is free of people, with the figure; empty if one is. A descent is then no worse than a hover: it
+  /// stays in the same place for less time.
+  std::string nothing_free;
   common::AvoidanceStatus status;
 };
 
@@ -74,7 +77,8 @@ struct Bin {
 ///   calm ------------------------------------------------> retreating -----------------> calm
 ///
 /// The vehicle retreats when stopping is not enough: when an unmapped obstacle is within `retreat_distance_m` of the
-/// hull, or when leaving lowers the probability of meeting a person (ContactRisk). For mapped, static obstacles it only
+/// hull, when leaving lowers the probability of meeting a person (ContactRisk), or when no course does
+/// though somebody is likely met. For mapped, static obstacles it only
 /// brakes, unless it flies at them too fast to stop, which no intent requests: it does so where its position is
 /// corrected, or a gust pushes it. All distances are from the hull.
 class Avoidance {
@@ -109,6 +113,8 @@ class Avoidance {
                    double intended_m_s, double latency_s) const;
   RetreatChoice retreat(const AvoidanceInput& input, const Points& points, const std::vector<Threat>& threats,
                         const std::vector<NearPerson>& people, const ContactRisk& risk, double latency_s) const;
+  std::string whyNothingIsFree(const AvoidanceInput& input, const ContactRisk& risk, double least,
+                               double latency_s) const;
   void look(const AvoidanceInput& input, const std::vector<Threat>& threats, std::vector<NearPerson> people,
             AvoidanceDecision& decision);
   bool isMapped(const AvoidanceInput& input, const Eigen::Vector2d& point_level_m) const;

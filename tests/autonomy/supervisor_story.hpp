@@ -30,6 +30,7 @@ class SupervisorStory : public testing::Test {
     condition.position_measured = measured_;
     condition.sensor_lies = sensor_lies_;
     condition.lands = lands_;
+    condition.people_all_round = people_all_round_;
     return supervisor_.tick(Time::fromSeconds(t_s), std::move(condition));
   }
   void scanAt(double t_s) { supervisor_.surroundingsSeen(Time::fromSeconds(t_s)); }
@@ -44,6 +45,7 @@ class SupervisorStory : public testing::Test {
   bool measured_ = false;
   std::string sensor_lies_;
   bool lands_ = false;
+  std::string people_all_round_;
 };
 
 }  // namespace swiftlet::autonomy

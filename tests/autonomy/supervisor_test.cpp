@@ -78,6 +78,22 @@ TEST_F(SupervisorStory, SaysThatTheChargeIsCountedOn) {
   EXPECT_EQ(events[1].text, "battery gauge trusted again");
 }
 
+TEST_F(SupervisorStory, LandsWherePeopleLeaveNoCourseAndNotForOneScan) {
+  at(1.0);
+  people_all_round_ = "no course is free of people";
+  EXPECT_FALSE(at(1.05).land);
+  people_all_round_.clear();
+  at(1.1);
+  people_all_round_ = "no course is free of people";
+  EXPECT_FALSE(at(1.15).land);
+  EXPECT_FALSE(at(1.4).land);
+  EXPECT_TRUE(at(1.5).land);
+  EXPECT_EQ(supervisor_.supervision().land_reason, "no course is free of people");
+  people_all_round_.clear();
+  EXPECT_TRUE(at(2.0).land) << "it does not climb into whoever comes next";
+  EXPECT_EQ(log_.take().back().text, "land");
+}
+
 TEST_F(SupervisorStory, LeavesGoalsToTheMission) {
   EXPECT_FALSE(supervisor_.take({1, common::GoalCommand{}}, Time{}).has_value());
   EXPECT_FALSE(supervisor_.take({2, common::HomeCommand{}}, Time{}).has_value());

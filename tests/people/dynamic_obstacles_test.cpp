@@ -141,6 +141,14 @@ TEST_F(MovingObjects, TheTopOfATableIsNotAWalker) {
   }
 }
 
+/// A vehicle that accelerates, or hangs in the wind, looks down at a person; who was once seen as high as the body is
+/// tall.
+TEST_F(MovingObjects, WhoWasSeenAsHighAsTheBodyRemainsAWalker) {
+  for (double t = 0.0; t < 4.0; t += 0.025)
+    tracker.update(at(t), seen(front({7.5, 2.0 + t}, 0.25, sensor), t < 0.1 ? -0.06F : -0.15F), grid);
+  EXPECT_TRUE(tracker.anyMoves()) << "-0.06 m is the height of the body, 3 m away";
+}
+
 TEST_F(MovingObjects, DiscsArePredictedAndExpire) {
   for (int i = 0; i <= 40; ++i) {
     const double t = i * 0.025;

@@ -126,6 +126,37 @@ TEST_F(People, ALoopClosureRestartsTheBackground) {
   EXPECT_EQ(without_jump.obstacles().size(), 1u) << "without the jump the background is still the old one";
 }
 
+TEST_F(People, WhoWalksIsNotDrawnAndTheWayThereIsFree) {
+  walk(0.0, 1.0);
+  const Time now = Time::fromSeconds(1.0);
+  ASSERT_EQ(tracker.walkersAt(now).size(), 1u);
+  ProjectedScan scan = scanAt(1.0);
+  scan.laser_height_level_m = 0.1F;
+  scan.points_level_m.push_back({3.0F, 2.0F});
+  scan.heights_level_m.push_back(0.2F);
+  scan.moves.push_back(true);
+  addPerson(scan, T_map_body.inverse() * Point(5.0, 6.0));
+  scan.moves.resize(scan.points_level_m.size(), false);
+  const ProjectedScan drawn = withoutWalkers(tracker.walkersAt(now), T_map_body, scan);
+  ASSERT_EQ(drawn.points_level_m.size(), 1u);
+  EXPECT_EQ(drawn.points_level_m[0], scan.points_level_m[0]);
+  EXPECT_EQ(drawn.heights_level_m, std::vector{0.2F});
+  EXPECT_EQ(drawn.moves, std::vector{true});
+  ASSERT_EQ(drawn.misses_level_m.size(), scan.points_level_m.size() - 1);
+  for (std::size_t i = 0; i < drawn.misses_level_m.size(); ++i) {
+    const Eigen::Vector2f end = scan.points_level_m[i + 1];
+    EXPECT_NEAR(drawn.misses_level_m[i].head<2>().norm(), end.norm() - 0.3F, 1e-4F);
+    EXPECT_GT(drawn.misses_level_m[i].z(), 0.0F) << "the beam begins at the laser, and ends lower";
+  }
+  for (double t = 1.0; t < 2.3; t += 0.025) {  // The person stands: the map may have it.
+    ProjectedScan standing = scanAt(t);
+    addPerson(standing, T_map_body.inverse() * Point(5.0, 6.0));
+    tracker.update(standing, T_map_body, {}, room);
+  }
+  EXPECT_TRUE(tracker.walkersAt(Time::fromSeconds(2.3)).empty());
+  EXPECT_EQ(withoutWalkers({}, T_map_body, scan).points_level_m.size(), scan.points_level_m.size());
+}
+
 TEST_F(People, PointsOnPeopleAreLeftOutOfTheMatch) {
   ProjectedScan scan = scanAt(0.0);
   for (int i = 0; i < 100; ++i) {

@@ -247,6 +247,24 @@ TEST(Avoidance, AvoidsAPersonWhoWalksTowardsIt) {
   }
 }
 
+// In a dead end one person is enough, in the open two are not: a descent is for where nothing is free.
+TEST(Avoidance, SaysThatNothingIsFreeInADeadEndOnly) {
+  const auto said = [](bool dead_end) {
+    Story story;
+    story.pose = {8.9, 4.0, std::numbers::pi};
+    if (dead_end) {
+      story.addWall({{120, 66}, {200, 70}});  // Between y = 3.5 m and 4.5 m, as far as x = 10 m.
+      story.addWall({{120, 90}, {200, 94}});
+    }
+    story.people = {{{5.5, 4.0}, {1.0, 0.0}}};
+    int ticks = 0;
+    for (double t = 0.0; t < 3.0; t += kTick_s) ticks += !story.tick(Point::Zero()).nothing_free.empty();
+    return ticks;
+  };
+  EXPECT_GT(said(true), 12) << "for 0.3 s at least";
+  EXPECT_EQ(said(false), 0);
+}
+
 TEST(Avoidance, RemembersAPersonBehindIt) {
   // Seen while it passed from the front to the side, then in the rear 90 deg: the memory prevents a flight backwards.
   Story story;

@@ -49,6 +49,15 @@ TEST(ContactRisk, OutOfSightThePlaceSpreads) {
   EXPECT_GT(riskOf({place, velocity, 0.25, 1.0}, standing()), riskOf({place, velocity, 0.25, 0.0}, standing()));
 }
 
+/// Who was coming when last seen is probably still coming, and who walked away may have turned round.
+TEST(ContactRisk, WhoIsOutOfSightIsNotGone) {
+  const NearPerson seen{{1.5, 0.0}, {-1.0, 0.0}, 0.25, 0.0}, unseen{{1.5, 0.0}, {-1.0, 0.0}, 0.25, 2.0};
+  EXPECT_GT(riskOf(unseen, standing()), 0.25 * riskOf(seen, standing()));
+  EXPECT_GT(riskOf(unseen, standing()), 0.06) << "a reason to leave";
+  const NearPerson away{{3.5, 0.0}, {1.0, 0.0}, 0.25, 2.0};
+  EXPECT_GT(riskOf(away, standing()), 0.01);
+}
+
 TEST(ContactRisk, TwoPeopleAreMoreThanOne) {
   const std::vector<NearPerson> people{{{2.0, 0.0}, {-1.0, 0.0}, 0.25, 0.0}, {{-2.0, 0.0}, {1.0, 0.0}, 0.25, 0.0}};
   const ContactRisk risk(kRadius_m, people);
