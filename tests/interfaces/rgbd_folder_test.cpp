@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/png_encoder.hpp"
 #include "common/random.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
