@@ -24,6 +24,7 @@
 #include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
+#include "mapping3d/model/map_resolution.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 #include "mapping3d/odometry/recorded_seeds.hpp"
 #include "mapping3d/surface/surface_net.hpp"
@@ -144,8 +145,8 @@ common::Trajectory givenPoses(const Map3dOptions& options) {
 }
 
 /// Throws InputError if a frame would be where the octree of the results, map.bt, does not reach.
-void requireInReach(const Map3dOptions& options, const common::Trajectory& poses,
-                    const interfaces::RgbdFolder& folder, const mapping3d::VoxelConfig& voxels) {
+void requireInReach(const Map3dOptions& options, const common::Trajectory& poses, const interfaces::RgbdFolder& folder,
+                    const mapping3d::VoxelConfig& voxels) {
   const double reach_m = mapping3d::octreeReach_m(voxels.resolution_m) - voxels.range_max_m;
   const auto gap = common::Duration::fromSeconds(mapping3d::RecordedSeeds::kLongestGap_s);
   for (const auto& pair : folder.listing().pairs) {
@@ -197,8 +198,7 @@ Map3dMap resultsOf(Map3dRun& run) {
   const std::vector<common::Submap3d> submaps = run.mapper.submaps();
   mapping3d::CloudConfig cloud;
   cloud.cube_m = run.config.submaps.cube_m;
-  return {mapping3d::cloudOf(submaps, keys, cloud),
-          mapping3d::fuse(submaps, keys, run.config.voxels.resolution_m)};
+  return {mapping3d::cloudOf(submaps, keys, cloud), mapping3d::fuse(submaps, keys, run.config.voxels.resolution_m)};
 }
 
 /// Reads the recording again, when all loops are closed: each tracked frame is drawn where it is at the end.
@@ -242,9 +242,10 @@ void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& li
   interfaces::required(interfaces::writeMesh(meshFile(options, results), mesh));
   line.close();
   if (volume.range_m() < run.config.submaps.point_range_m)
-    notes.push_back(fmt::format("the mesh has surfaces up to {:.1f} m from the camera: farther ones are too noisy for "
-                                "voxels of {:g} m",
-                                volume.range_m(), volume.resolution_m()));
+    notes.push_back(
+        fmt::format("the mesh has surfaces up to {:.1f} m from the camera: farther ones are too noisy for "
+                    "voxels of {:g} m",
+                    volume.range_m(), volume.resolution_m()));
   if (volume.isFull())
     notes.emplace_back("the mesh is not complete: it would need too much memory at this --resolution");
 }
@@ -274,14 +275,14 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
 void requireMeshFile(const std::string& file) {
   if (file.empty()) return;
   if (!interfaces::isMeshName(file))
-    throw common::InputError({file}, "--mesh", common::Message("mesh.other-ending", "is not named .ply or .obj"));
+    throw common::InputError({file}, "--mesh", common::Message("map3d.mesh-ending", "is not named .ply or .obj"));
   interfaces::requireWritableFolder(fs::absolute(file).parent_path(), "--mesh");
 }
 
 mapping3d::Mapper3dConfig configOf(const Map3dOptions& options) {
   auto config = mapping3d::configOfRecordings(
       flight::loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
-  if (options.resolution_m) config.setResolution(*options.resolution_m);
+  if (options.resolution_m) mapping3d::setResolution(*options.resolution_m, config);
   return config;
 }
 
@@ -355,15 +356,17 @@ void addMap3d(Command& program) {
   command.option("--poses", options->poses,
                  "Poses of the camera from other sensors, to begin each alignment with: TUM (t x y z qx qy qz qw), or "
                  "none.");
-  command.option("--intrinsics", options->intrinsics,
-                 "Calibration of the camera (YAML), as far as it differs from that of the recording or of the format. Default: "
-                 "calibration.yaml of the folder, if there is one.");
+  command.option(
+      "--intrinsics", options->intrinsics,
+      "Calibration of the camera (YAML), as far as it differs from that of the recording or of the format. Default: "
+      "calibration.yaml of the folder, if there is one.");
   command.option("--system", options->system,
                  "A profile of config/systems, or a file: the method that finds the pose of a frame.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
-  command.option("--resolution", options->resolution_m, {0.005, 0.5},
-                 "Side of voxels and of the cubes of points, in metres. Default: 0.05 for map.bt, 0.02 for cloud.ply and "
-                 "the mesh. Fine voxels reach only as far as depths are that precise: 1.9 m at 0.005.");
+  command.option(
+      "--resolution", options->resolution_m, {0.005, 0.5},
+      "Side of voxels and of the cubes of points, in metres. Default: 0.05 for map.bt, 0.02 for cloud.ply and "
+      "the mesh. Fine voxels reach only as far as depths are that precise: 1.9 m at 0.005.");
   command.option("--mesh", options->mesh,
                  "Also write the surfaces as coloured triangles to this file, .ply or .obj. Reads the frames twice.");
   command.flag("--json", options->json, "Print the figures as JSON.");

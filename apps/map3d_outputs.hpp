@@ -15,10 +15,11 @@
 namespace swiftlet::apps {
 
 inline const std::string kMap3dTitle = "3D map of ";
-inline const ResultsKind kMap3dResults{"3D map",
-                                       "report.html",
-                                       "<title>" + kMap3dTitle,
-                                       {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply", "mesh.obj"}};
+inline const ResultsKind kMap3dResults{
+    "3D map",
+    "report.html",
+    "<title>" + kMap3dTitle,
+    {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply", "mesh.obj"}};
 
 /// In the frame of the trajectory.
 struct Map3dMap {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/LU>
 #include <fmt/core.h>
+#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
 #include "common/config_check.hpp"
@@ -33,14 +33,14 @@ constexpr std::size_t kMostCameraBytes = std::size_t{1} << 20;
 /// numbers belong to images of another size. ScanNet's two sizes differ by a factor of two.
 constexpr double kFromMiddle = 0.25;
 
-bool isThere(const fs::path& file) {
+bool isCameraFile(const fs::path& file) {
   std::error_code failure;
   return fs::exists(file, failure);
 }
 
 std::optional<fs::path> firstThere(const fs::path& folder, std::initializer_list<const char*> names) {
   for (const char* name : names)
-    if (isThere(folder / name)) return folder / name;
+    if (isCameraFile(folder / name)) return folder / name;
   return std::nullopt;
 }
 
@@ -106,10 +106,11 @@ std::vector<double> readCameraMatrix(const fs::path& file) {
 }
 
 InputError ofAnotherSize(const fs::path& file, const LensCalibration& lens) {
-  return InputError({file.string()}, "",
-                    Message("camera.other-size", "its principal point ({:g}, {:g}) is far from the middle of images of {}x{}",
-                            lens.cx_px, lens.cy_px, lens.width_px, lens.height_px),
-                    "its numbers belong to images of another size: give those of these images (--intrinsics)");
+  return InputError(
+      {file.string()}, "",
+      Message("camera.other-size", "its principal point ({:g}, {:g}) is far from the middle of images of {}x{}",
+              lens.cx_px, lens.cy_px, lens.width_px, lens.height_px),
+      "its numbers belong to images of another size: give those of these images (--intrinsics)");
 }
 
 CameraFile tsdfFusionCamera(const fs::path& file, const ImageSizes& sizes) {
@@ -123,7 +124,7 @@ CameraFile tsdfFusionCamera(const fs::path& file, const ImageSizes& sizes) {
 /// Where ScanNet's SensReader writes them, and where its smaller editions have them.
 std::optional<fs::path> scanNetFile(const fs::path& folder, const std::string& name) {
   for (const fs::path& file : {folder / "intrinsic" / name, folder / name})
-    if (isThere(file)) return file;
+    if (isCameraFile(file)) return file;
   return std::nullopt;
 }
 std::optional<fs::path> scanNetIntrinsics(const fs::path& folder, const std::string& of) {
@@ -152,8 +153,8 @@ CameraFile scanNetCamera(const fs::path& folder, const fs::path& depth_file, con
   calibration.depth = lensOf(of_depth, sizes.depth_width_px, sizes.depth_height_px);
   if (!isInTheMiddle(calibration.depth)) throw ofAnotherSize(depth_file, calibration.depth);
   const auto color_file = scanNetIntrinsics(folder, "color");
-  calibration.color = lensOf(color_file ? readCameraMatrix(*color_file) : of_depth, sizes.color_width_px,
-                             sizes.color_height_px);
+  calibration.color =
+      lensOf(color_file ? readCameraMatrix(*color_file) : of_depth, sizes.color_width_px, sizes.color_height_px);
   calibration.is_registered = !color_file || !isInTheMiddle(calibration.color);
   if (calibration.is_registered)
     calibration.color = lensOf(of_depth, sizes.color_width_px, sizes.color_height_px);
@@ -204,6 +205,7 @@ std::vector<double> parseCameraMatrix(std::string_view text, const std::string& 
 CameraFile findCameraFile(const fs::path& folder, const ImageSizes& sizes) {
   if (const auto file = firstThere(folder, {"camera_intrinsic.json", "intrinsic.json", "camera_intrinsics.json"}))
     return parseOpen3dCamera(common::readText(*file, kMostCameraBytes), file->string());
+  if (sizes.color_width_px == 0) return {};
   if (const auto file = firstThere(folder, {"camera-intrinsics.txt"})) return tsdfFusionCamera(*file, sizes);
   if (const auto file = scanNetIntrinsics(folder, "depth")) return scanNetCamera(folder, *file, sizes);
   return {};

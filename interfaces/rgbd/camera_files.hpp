@@ -16,7 +16,8 @@
 
 namespace swiftlet::interfaces {
 
-/// The sizes of the images of the recording, for files that do not say to which size their numbers belong.
+/// The sizes of the images of the recording, for files that do not say to which size their numbers belong: they are
+/// left out if no image can be read.
 struct ImageSizes {
   int color_width_px = 0, color_height_px = 0;
   int depth_width_px = 0, depth_height_px = 0;

@@ -27,7 +27,7 @@ struct CodeRange {
   bool isPlausible(double per_m) const { return low / per_m >= kNearest_m && high / per_m <= kFarthest_m; }
 };
 
-CodeRange rangeOf(std::vector<std::uint16_t>& codes) {
+CodeRange codeRangeOf(std::vector<std::uint16_t>& codes) {
   std::sort(codes.begin(), codes.end());
   const auto at = [&](std::size_t tenths) { return static_cast<double>(codes[tenths * (codes.size() - 1) / 10]); };
   return {at(1), at(5), at(9)};
@@ -49,7 +49,7 @@ DepthUnits depthUnitsOf(const std::vector<std::uint16_t>& all, double usual_per_
   std::copy_if(all.begin(), all.end(), std::back_inserter(codes),
                [](std::uint16_t code) { return code != 0 && code != kInvalid; });
   if (codes.empty()) return {usual_per_m, ""};
-  const CodeRange range = rangeOf(codes);
+  const CodeRange range = codeRangeOf(codes);
   const double other_per_m = usual_per_m == kMillimetres ? kTumUnits : kMillimetres;
   const bool fives = areFives(codes);
   const bool must_be_tum = fives && range.isPlausible(kTumUnits);
@@ -57,13 +57,15 @@ DepthUnits depthUnitsOf(const std::vector<std::uint16_t>& all, double usual_per_
   const bool other = must_be_tum ? usual_per_m != kTumUnits : range.isPlausible(other_per_m);
   const auto depths = [&](double per_m) { return fmt::format("{:.2g} m in the median", range.median / per_m); };
   if (!usual && other)
-    return {other_per_m, fmt::format("the depths are taken for {:g} units a metre, {}: with the usual {:g} they would be "
-                                     "{} (depth_units_per_m in --intrinsics)",
-                                     other_per_m, depths(other_per_m), usual_per_m, depths(usual_per_m))};
+    return {other_per_m,
+            fmt::format("the depths are taken for {:g} units a metre, {}: with the usual {:g} they would be "
+                        "{} (depth_units_per_m in --intrinsics)",
+                        other_per_m, depths(other_per_m), usual_per_m, depths(usual_per_m))};
   if (usual && other)
-    return {usual_per_m, fmt::format("the depths are {}, at the usual {:g} units a metre; at {:g}, which is possible too, "
-                                     "they would be {} (depth_units_per_m in --intrinsics)",
-                                     depths(usual_per_m), usual_per_m, other_per_m, depths(other_per_m))};
+    return {usual_per_m,
+            fmt::format("the depths are {}, at the usual {:g} units a metre; at {:g}, which is possible too, "
+                        "they would be {} (depth_units_per_m in --intrinsics)",
+                        depths(usual_per_m), usual_per_m, other_per_m, depths(other_per_m))};
   return {usual_per_m, ""};
 }
 

@@ -54,7 +54,7 @@ void pairByNumber(const NumberedFiles& colors, const NumberedFiles& depths, Rgbd
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
 }
 
-bool isImage(const fs::path& file) {
+bool isImageFile(const fs::path& file) {
   constexpr std::array<std::string_view, 4> kEndings{".png", ".jpg", ".jpeg", ".pgm"};
   return std::find(kEndings.begin(), kEndings.end(), common::endingOf(file)) != kEndings.end();
 }
@@ -89,7 +89,7 @@ struct FolderImages {
   explicit FolderImages(const fs::path& folder) {
     std::size_t images = 0;
     for (const fs::path& file : filesIn(folder)) {
-      if (!isImage(file)) continue;
+      if (!isImageFile(file)) continue;
       ++images;
       const std::string stem = file.stem().string();
       if (const auto time = timeIn(stem)) stamped.emplace(*time, file);
@@ -107,8 +107,7 @@ void pairByTime(const std::map<Time, fs::path>& colors, const std::map<Time, fs:
   };
   const std::vector<Time> color_stamps = stampsOf(colors), depth_stamps = stampsOf(depths);
   for (const auto& [color, depth] : pairsOf(color_stamps, depth_stamps))
-    listing.pairs.push_back(
-        {color_stamps[color], colors.at(color_stamps[color]), depths.at(depth_stamps[depth])});
+    listing.pairs.push_back({color_stamps[color], colors.at(color_stamps[color]), depths.at(depth_stamps[depth])});
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
 }
 

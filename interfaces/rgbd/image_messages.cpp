@@ -81,7 +81,7 @@ struct RawImage {
   bool is_big_endian = false;
 };
 
-ImageFault cutOff() { return {Message("image.cut-off", "is cut off"), true}; }
+ImageFault imageCutOff() { return {Message("image.cut-off", "is cut off"), true}; }
 
 tl::expected<RawImage, ImageFault> rawImage(const BagMessage& message, std::size_t bytes_a_pixel_at_least) {
   MessageCursor cursor(message.data);
@@ -94,14 +94,14 @@ tl::expected<RawImage, ImageFault> rawImage(const BagMessage& message, std::size
   raw.is_big_endian = !big.empty() && big.front() != 0;
   raw.step = cursor.u32();
   raw.bytes = cursor.text();
-  if (!cursor.whole()) return unexpected(cutOff());
+  if (!cursor.whole()) return unexpected(imageCutOff());
   const auto most = static_cast<std::uint32_t>(common::kMostImageSide_px);
   if (raw.width_px == 0 || raw.height_px == 0 || raw.width_px > most || raw.height_px > most)
     return unexpected(ImageFault{
         Message("image.too-large", "is {}x{} pixels large, 1 to {} can be read", raw.width_px, raw.height_px, most)});
   if (raw.step < bytes_a_pixel_at_least * raw.width_px ||
       raw.bytes.size() < std::size_t{raw.step} * (raw.height_px - 1) + bytes_a_pixel_at_least * raw.width_px)
-    return unexpected(cutOff());
+    return unexpected(imageCutOff());
   return raw;
 }
 
@@ -111,8 +111,8 @@ tl::expected<Image, ImageFault> rawColor(const BagMessage& message) {
   const auto* layout = std::find_if(kLayouts.begin(), kLayouts.end(),
                                     [&](const PixelLayout& known) { return known.encoding == raw->encoding; });
   if (layout == kLayouts.end())
-    return unexpected(ImageFault{Message("image.encoding", "has the encoding `{}`, which is not read",
-                                         shown(raw->encoding))});
+    return unexpected(
+        ImageFault{Message("image.encoding", "has the encoding `{}`, which is not read", shown(raw->encoding))});
   raw = rawImage(message, layout->bytes);
   if (!raw) return unexpected(std::move(raw.error()));
   Image image{static_cast<int>(raw->width_px), static_cast<int>(raw->height_px), {}};
@@ -135,7 +135,7 @@ tl::expected<PackedImage, ImageFault> packedImage(const BagMessage& message) {
   MessageCursor cursor(message.data);
   (void)takeHeader(message, cursor);
   const std::string_view format = cursor.text(), bytes = cursor.text();
-  if (!cursor.whole()) return unexpected(cutOff());
+  if (!cursor.whole()) return unexpected(imageCutOff());
   return PackedImage{format, bytes};
 }
 
@@ -149,7 +149,7 @@ std::uint16_t codeOfMetres(float depth_m) {
   return code > 0.0 && code < 65535.0 ? static_cast<std::uint16_t>(std::lround(code)) : std::uint16_t{0};
 }
 
-std::uint32_t numberAt(const char* bytes, int count, bool is_big_endian) {
+std::uint32_t pixelAt(const char* bytes, int count, bool is_big_endian) {
   std::uint32_t number = 0;
   for (int i = 0; i < count; ++i) {
     const auto byte = static_cast<unsigned char>(bytes[is_big_endian ? i : count - 1 - i]);
@@ -165,7 +165,7 @@ std::vector<std::uint32_t> numbersOf(const RawImage& raw, int bytes) {
   for (std::size_t v = 0; v < raw.height_px; ++v)
     for (std::size_t u = 0; u < raw.width_px; ++u)
       numbers.push_back(
-          numberAt(raw.bytes.data() + v * raw.step + u * static_cast<std::size_t>(bytes), bytes, raw.is_big_endian));
+          pixelAt(raw.bytes.data() + v * raw.step + u * static_cast<std::size_t>(bytes), bytes, raw.is_big_endian));
   return numbers;
 }
 
@@ -227,7 +227,7 @@ std::vector<double> takeNumbers(MessageCursor& cursor, std::size_t count) {
   return numbers;
 }
 
-Message notRead(const std::string& why) { return {"camera-info.not-read", "its CameraInfo {}", why}; }
+Message notRead(const std::string& why) { return Message("camera-info.not-read", "its CameraInfo {}", why); }
 
 }  // namespace
 
@@ -276,13 +276,12 @@ tl::expected<CameraInfo, Message> cameraInfoOf(const BagMessage& message) {
                                           [](double value) { return value != 0.0; });
   };
   if (isDistorted(is_known ? 5 : 0))
-    return unexpected(notRead(fmt::format("has a distortion of the kind `{}`, which is not known here",
-                                          shown(model))));
+    return unexpected(notRead(fmt::format("has a distortion of the kind `{}`, which is not known here", shown(model))));
   D.resize(5, 0.0);
   if (std::max(width_px, height_px) > static_cast<std::uint32_t>(common::kMostImageSide_px))
     return unexpected(notRead("has a size that no camera has"));
-  info.raw = {static_cast<int>(width_px), static_cast<int>(height_px), K[0], K[4], K[2], K[5], D[0], D[1], D[2], D[3],
-              D[4]};
+  info.raw = {
+      static_cast<int>(width_px), static_cast<int>(height_px), K[0], K[4], K[2], K[5], D[0], D[1], D[2], D[3], D[4]};
   info.rectified = {static_cast<int>(width_px), static_cast<int>(height_px), P[0], P[5], P[2], P[6]};
   if (P[0] == 0.0) {
     info.rectified = info.raw;

@@ -29,7 +29,7 @@ inline constexpr std::size_t kMostImageMessageBytes =
 
 enum class ImageKind {
   kColor,
-  kGrey,   ///< One colour, as of an infrared camera.
+  kGrey,  ///< One colour, as of an infrared camera.
   kDepth,
   kOther,  ///< Of an encoding that is not read.
 };
@@ -50,8 +50,8 @@ tl::expected<common::Image, common::ImageFault> colorOf(const BagMessage& messag
 
 /// Depths of a 32FC1 image, which are metres, are stored as this many a metre: up to 13 m, to 0.2 mm.
 inline constexpr double kFloatUnits_per_m = 5000.0;
-/// Depths are 16UC1 or mono16, millimetres by REP 118, or 32FC1, metres or, plainly, millimetres; raw, or compressed by the transport
-/// `compressedDepth`.
+/// Depths are 16UC1 or mono16, millimetres by REP 118, or 32FC1, metres or, plainly, millimetres; raw, or compressed by
+/// the transport `compressedDepth`.
 tl::expected<common::DepthCodes, common::ImageFault> depthOf(const BagMessage& message);
 
 /// A camera as CameraInfo has it.

@@ -93,7 +93,8 @@ std::vector<std::uint16_t> sampledCodes(const RgbdListing& listing) {
   const std::size_t step = std::max<std::size_t>(1, listing.pairs.size() / kSampledFrames);
   for (std::size_t i = 0; i < listing.pairs.size(); i += step) try {
       const auto depth = common::decodeDepth(common::readBytes(listing.pairs[i].depth));
-      for (std::size_t at = 0; depth && at < depth->codes.size(); at += kSampledPixels) codes.push_back(depth->codes[at]);
+      for (std::size_t at = 0; depth && at < depth->codes.size(); at += kSampledPixels)
+        codes.push_back(depth->codes[at]);
     } catch (const InputError&) {
       continue;
     }
@@ -110,8 +111,8 @@ void tellUnits(RgbdListing& listing) {
 /// tsdf-fusion's file of the depth camera, too.
 bool isOfSevenScenes(const CameraFile& camera) {
   const LensCalibration depth = sevenScenesCalibration().depth, &found = camera.calibration.color;
-  return camera.format.empty() ||
-         (found.fx_px == depth.fx_px && found.fy_px == depth.fy_px && hasShapeOf(depth, found.width_px, found.height_px));
+  return camera.format.empty() || (found.fx_px == depth.fx_px && found.fy_px == depth.fy_px &&
+                                   hasShapeOf(depth, found.width_px, found.height_px));
 }
 
 /// Takes the calibration of a file; without one, that of the sensors that Open3D takes then, too. Returns whether the
@@ -120,8 +121,9 @@ bool takeCamera(const CameraFile& camera, RgbdListing& listing) {
   listing.format = camera.format.empty() ? "Open3D" : camera.format;
   listing.calibration = camera.calibration;
   if (camera.format.empty())
-    listing.notes.emplace_back("no file has the camera's intrinsics (camera_intrinsic.json, camera-intrinsics.txt, "
-                               "intrinsic/intrinsic_depth.txt): it is taken for one of 525 px focal length at 640 x 480");
+    listing.notes.emplace_back(
+        "no file has the camera's intrinsics (camera_intrinsic.json, camera-intrinsics.txt, "
+        "intrinsic/intrinsic_depth.txt): it is taken for one of 525 px focal length at 640 x 480");
   return camera.has_units;
 }
 

@@ -14,11 +14,12 @@
 
 namespace swiftlet::interfaces {
 
-/// `recording` is a folder, or the file of a bag. Throws InputError for any other folder or file, for one that lacks a part of its format (with that part), for a list
-/// that cannot be read (with file, line and column), and for a recording without a single pair. A calibration file
-/// (YAML) holds what differs from the calibration of the recording; what it does not name stays. If none is given, a
-/// calibration.yaml in the folder is read. Throws InputError for its mistakes, all at once. Where no calibration says
-/// otherwise, the unit of the depths is told from some of them if the usual one makes them implausible.
+/// `recording` is a folder, or the file of a bag. Throws InputError for any other folder or file, for one that lacks a
+/// part of its format (with that part), for a list that cannot be read (with file, line and column), and for a
+/// recording without a single pair. A calibration file (YAML) holds what differs from the calibration of the recording;
+/// what it does not name stays. If none is given, a calibration.yaml in the folder is read. Throws InputError for its
+/// mistakes, all at once. Where no calibration says otherwise, the unit of the depths is told from some of them if the
+/// usual one makes them implausible.
 RgbdListing listRgbdFolder(const std::filesystem::path& recording, const std::string& calibration_file = {});
 
 }  // namespace swiftlet::interfaces

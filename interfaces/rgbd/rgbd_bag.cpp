@@ -23,7 +23,7 @@ using common::Message;
 using common::Time;
 
 /// The most topics that a message lists.
-constexpr std::size_t kTopicsListed = 8;
+constexpr std::size_t kImageTopicsListed = 8;
 
 /// The messages of a topic, in the order of the bag.
 struct ImageTopic {
@@ -67,7 +67,7 @@ std::string topicsOf(const BagReader& reader) {
   std::string topics;
   std::size_t listed = 0;
   for (const auto& [id, connection] : reader.connections()) {
-    if (listed++ == kTopicsListed) return topics + ", ...";
+    if (listed++ == kImageTopicsListed) return topics + ", ...";
     topics += fmt::format("{}{} ({})", topics.empty() ? "" : ", ", shown(connection.topic), shown(connection.type));
   }
   return topics.empty() ? "none" : topics;
@@ -81,7 +81,7 @@ BagContents contentsOf(const fs::path& file) {
         return isImage(connection) || isCompressedImage(connection) || isCameraInfo(connection);
       },
       [&](const Message& problem) {
-        if (contents.notes.size() < kTopicsListed) contents.notes.push_back(problem.text());
+        if (contents.notes.size() < kImageTopicsListed) contents.notes.push_back(problem.text());
       });
   try {
     for (BagMessage message; reader.next(message);)
@@ -101,7 +101,7 @@ std::string plainTopic(std::string topic) {
 }
 
 /// That of the namespace of the images, or else one of the same frame.
-const CameraInfo* cameraOf(const BagContents& contents, const ImageTopic& topic) {
+const CameraInfo* cameraOfTopic(const BagContents& contents, const ImageTopic& topic) {
   const std::string plain = plainTopic(topic.name);
   const auto beside = contents.cameras.find(plain.substr(0, plain.rfind('/') + 1) + "camera_info");
   if (beside != contents.cameras.end()) return &beside->second;
@@ -151,7 +151,7 @@ std::optional<Candidate> bestOf(const BagContents& contents) {
     for (const ImageTopic& color : contents.images) {
       const bool shows_colors = color.header.kind == ImageKind::kColor || color.header.kind == ImageKind::kGrey;
       if (depth.header.kind != ImageKind::kDepth || !shows_colors) continue;
-      Candidate candidate{&color, &depth, cameraOf(contents, color), areRegistered(color, depth),
+      Candidate candidate{&color, &depth, cameraOfTopic(contents, color), areRegistered(color, depth),
                           pairsOf(sorted(color.stamps), sorted(depth.stamps))};
       if (!best || candidate.rank() > best->rank()) best = std::move(candidate);
     }
@@ -165,7 +165,8 @@ InputError notMapped(const fs::path& file, Message message, const std::string& h
 void requireUsable(const fs::path& file, const BagContents& contents, const std::optional<Candidate>& best) {
   const std::string topics = "its topics: " + contents.all_topics;
   if (!best)
-    throw notMapped(file, Message("rgbd.bag-without-images", "has no two topics of colour and of depth images"), topics);
+    throw notMapped(file, Message("rgbd.bag-without-images", "has no two topics of colour and of depth images"),
+                    topics);
   if (best->pairs.empty())
     throw notMapped(file,
                     Message("rgbd.bag-without-pairs", "no image of {} and of {} are within {:g} s of each other",
@@ -176,7 +177,7 @@ void requireUsable(const fs::path& file, const BagContents& contents, const std:
 /// Depths of a camera of their own. A bag has its pose among the transforms of the robot, which are not read.
 void addDepthCamera(const BagContents& contents, const Candidate& best, RgbdListing& listing) {
   if (best.is_registered) return;
-  const CameraInfo* camera = cameraOf(contents, *best.depth);
+  const CameraInfo* camera = cameraOfTopic(contents, *best.depth);
   listing.calibration.is_registered = camera == nullptr;
   if (camera != nullptr) listing.calibration.depth = camera->rectified;
   listing.notes.push_back(fmt::format(
@@ -193,8 +194,9 @@ void addCameras(const BagContents& contents, const Candidate& best, RgbdListing&
   if (best.camera != nullptr)
     listing.calibration.color = is_rectified ? best.camera->rectified : best.camera->raw;
   else
-    listing.notes.emplace_back("no CameraInfo belongs to the colours: the camera is taken for one of 525 px focal "
-                               "length at 640 x 480; give its calibration (--intrinsics)");
+    listing.notes.emplace_back(
+        "no CameraInfo belongs to the colours: the camera is taken for one of 525 px focal "
+        "length at 640 x 480; give its calibration (--intrinsics)");
   addDepthCamera(contents, best, listing);
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <filesystem>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,7 +46,7 @@ class RgbdBagImages {
   bool at_end_ = false;
   std::size_t colors_ = 0, depths_ = 0;  ///< Messages read so far.
   std::size_t kept_bytes_ = 0;
-  std::deque<Kept> kept_;
+  std::list<Kept> kept_;
 };
 
 }  // namespace swiftlet::interfaces

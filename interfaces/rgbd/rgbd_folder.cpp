@@ -82,11 +82,12 @@ std::string_view bytesOf(const std::vector<Number>& numbers) {
 StoredOrSkipped fromBag(RgbdBagImages& bag, const RgbdListing::Pair& pair) {
   const auto [color, depth] = bag.of(pair);
   if (color == nullptr || depth == nullptr)
-    return tl::unexpected(SkippedFrame{
-        FrameFault::kMissing, (color == nullptr ? pair.color : pair.depth).string() + ": is not in the bag, or too far "
-                                                                                      "from its partner there"});
+    return tl::unexpected(SkippedFrame{FrameFault::kMissing, (color == nullptr ? pair.color : pair.depth).string() +
+                                                                 ": is not in the bag, or too far "
+                                                                 "from its partner there"});
   auto images = imagesOf(pair, colorOf(*color), depthOf(*depth));
-  if (images) images->hash = common::fnv1a(bytesOf(images->depth.codes)) + 31 * common::fnv1a(bytesOf(images->color.rgb));
+  if (images)
+    images->hash = common::fnv1a(bytesOf(images->depth.codes)) + 31 * common::fnv1a(bytesOf(images->color.rgb));
   return images;
 }
 
@@ -96,11 +97,11 @@ std::string sizeFault(const RgbdCalibration& known, const common::Image& color, 
   if (hasShapeOf(known.color, color.width_px, color.height_px) &&
       (known.is_registered ? same_size : hasShapeOf(known.depth, depth.width_px, depth.height_px)))
     return "";
-  return fmt::format(
-      "{}x{}, its depth {}x{}, the calibration {}x{}{}", color.width_px, color.height_px, depth.width_px,
-      depth.height_px, known.color.width_px, known.color.height_px,
-      known.is_registered ? std::string()
-                          : fmt::format(", its depth {}x{}", known.depth.width_px, known.depth.height_px));
+  return fmt::format("{}x{}, its depth {}x{}, the calibration {}x{}{}", color.width_px, color.height_px, depth.width_px,
+                     depth.height_px, known.color.width_px, known.color.height_px,
+                     known.is_registered
+                         ? std::string()
+                         : fmt::format(", its depth {}x{}", known.depth.width_px, known.depth.height_px));
 }
 
 }  // namespace
@@ -152,8 +153,7 @@ std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair,
   last_hash_ = images->hash;
   if (repeated) return skip(FrameFault::kRepeated, pair.color.string());
   const std::string size_fault = sizeFault(listing_.calibration, images->color, images->depth);
-  if (!size_fault.empty())
-    return skip(FrameFault::kOtherSize, fmt::format("{}: {}", pair.color.string(), size_fault));
+  if (!size_fault.empty()) return skip(FrameFault::kOtherSize, fmt::format("{}: {}", pair.color.string(), size_fault));
   std::optional<FrameFault> fault = faultOf(images->depth, listing_.calibration.depth_units_per_m);
   const common::Blank blank = common::blankOf(images->color);
   if (blank != common::Blank::kNo) fault = blank == common::Blank::kBlack ? FrameFault::kBlack : FrameFault::kWhite;

@@ -45,12 +45,6 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
 }
 
-void Mapper3dConfig::setResolution(double resolution_m) {
-  voxels.resolution_m = submaps.cube_m = resolution_m;
-  const double resolved_m = std::sqrt(resolution_m / odometry.features.depth_noise.sigma_per_m2);
-  voxels.range_max_m = std::min(voxels.range_max_m, resolved_m);
-}
-
 Mapper3dConfig configOfRecordings(RgbdOdometryConfig::Method method) {
   Mapper3dConfig config;
   config.odometry.method = method;

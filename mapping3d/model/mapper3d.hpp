@@ -38,8 +38,6 @@ struct Mapper3dConfig {
   KeyFrameGraphConfig graph;
 
   void describe(common::config::Fields& fields);
-  /// Makes voxels and the cubes of points that large. Voxels then end where the noise of a depth is as large.
-  void setResolution(double resolution_m);
 };
 
 /// For a recording, of which only the camera is known: it may be any, in a room of any size. Cloud and voxels keep

@@ -24,8 +24,8 @@ float depthBetween(const common::DepthImage& depth, const common::PinholeCamera&
   const float left = std::floor(u_px), top = std::floor(v_px);
   if (left + 1.0F >= static_cast<float>(depth.width_px) || top + 1.0F >= static_cast<float>(depth.height_px))
     return DepthImage::kUnknown;
-  const float* row = depth.depth_m.data() + common::rowMajor(static_cast<int>(top), depth.width_px,
-                                                             static_cast<int>(left));
+  const float* row =
+      depth.depth_m.data() + common::rowMajor(static_cast<int>(top), depth.width_px, static_cast<int>(left));
   const float* below = row + depth.width_px;
   const auto [least, greatest] = std::minmax({row[0], row[1], below[0], below[1]});
   if (least == DepthImage::kUnknown || !std::isfinite(greatest))

@@ -52,8 +52,7 @@ float FrameView::farthestDepth_m(const Eigen::Vector3f& middle_camera_m) const {
   const auto tilesOf = [&](double center_px, double focal_px, float aside_m, int count) {
     const float high_m = aside_m + radius_m_, low_m = aside_m - radius_m_;
     const auto tile = [&](float offset, float depth_m, float margin_px) {
-      const float pixel =
-          static_cast<float>(center_px) - static_cast<float>(focal_px) * offset / depth_m + margin_px;
+      const float pixel = static_cast<float>(center_px) - static_cast<float>(focal_px) * offset / depth_m + margin_px;
       const float last = static_cast<float>(count - 1);
       return static_cast<int>(std::clamp(pixel / static_cast<float>(kTile_px), 0.0F, last));
     };

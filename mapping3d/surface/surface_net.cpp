@@ -115,13 +115,15 @@ class TsdfNet {
   void add(const TsdfVoxel* from, const TsdfVoxel* to, VoxelIndex place, int axis, Crossings& crossings) const {
     const std::optional<float> share = crossing(from, to);
     if (!share) return;
-    crossings.place_voxels += Vector3f(static_cast<float>(place.x), static_cast<float>(place.y),
-                                       static_cast<float>(place.z)) + *share * Vector3f::Unit(axis);
+    crossings.place_voxels +=
+        Vector3f(static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)) +
+        *share * Vector3f::Unit(axis);
     ++crossings.count;
     for (const TsdfVoxel* voxel : {from, to}) {
       if (!voxel->has_color) continue;
       const float weight = voxel == from ? 1.0F - *share : *share;
-      for (int i = 0; i < 3; ++i) crossings.rgb[i] += weight * static_cast<float>(voxel->rgb[static_cast<std::size_t>(i)]);
+      for (int i = 0; i < 3; ++i)
+        crossings.rgb[i] += weight * static_cast<float>(voxel->rgb[static_cast<std::size_t>(i)]);
       crossings.colored += weight;
     }
   }

@@ -38,7 +38,9 @@ double truncation_m(const TsdfConfig& config, double depth_m) {
 class Projector {
  public:
   Projector(const RgbdFrame& frame, const TsdfConfig& config, double range_m)
-      : frame_(frame), config_(config), range_m_(static_cast<float>(range_m)),
+      : frame_(frame),
+        config_(config),
+        range_m_(static_cast<float>(range_m)),
         // Nothing finer than a voxel is told apart: the variance of a place within one.
         least_variance_m2_(static_cast<float>(config.resolution_m * config.resolution_m / 12.0)) {}
 
@@ -47,8 +49,10 @@ class Projector {
     if (point_camera_m.x() <= 0.0F) return;
     const common::PinholeCamera& camera = frame_.camera;
     const float per_depth = 1.0F / point_camera_m.x();
-    const float u = static_cast<float>(camera.cx_px) - static_cast<float>(camera.fx_px) * point_camera_m.y() * per_depth;
-    const float v = static_cast<float>(camera.cy_px) - static_cast<float>(camera.fy_px) * point_camera_m.z() * per_depth;
+    const float u =
+        static_cast<float>(camera.cx_px) - static_cast<float>(camera.fx_px) * point_camera_m.y() * per_depth;
+    const float v =
+        static_cast<float>(camera.cy_px) - static_cast<float>(camera.fy_px) * point_camera_m.z() * per_depth;
     const float seen_m = depthBetween(frame_.depth, camera, config_.noise, u, v);
     if (seen_m == common::DepthImage::kUnknown) return;
     const float depth_m = std::min(seen_m, range_m_);
@@ -75,8 +79,8 @@ class Projector {
   }
 
   void blend(float u, float v, float share, TsdfVoxel& voxel) const {
-    const std::size_t pixel = 3 * common::rowMajor(static_cast<int>(std::lround(v)), frame_.color.width_px,
-                                                   static_cast<int>(std::lround(u)));
+    const std::size_t pixel =
+        3 * common::rowMajor(static_cast<int>(std::lround(v)), frame_.color.width_px, static_cast<int>(std::lround(u)));
     for (std::size_t i = 0; i < 3; ++i) {
       const float before = voxel.rgb[i], seen = frame_.color.rgb[pixel + i];
       voxel.rgb[i] = voxel.has_color ? static_cast<std::uint8_t>(before + share * (seen - before) + 0.5F)
@@ -91,11 +95,12 @@ class Projector {
   float least_variance_m2_;
 };
 
-/// One pixel in so many across and down makes blocks: rays one voxel apart find all that a surface touches.
+/// One pixel in so many across and down makes blocks: of rays half a voxel apart, one meets each voxel that a surface
+/// touches, also the one in the corner of a block.
 int pixelStep(double resolution_m, double pixel_m) {
   constexpr int kMostPixels = 16;
   int step = 1;
-  while (step < kMostPixels && 2 * step * pixel_m <= resolution_m) step *= 2;
+  while (step < kMostPixels && 4 * step * pixel_m <= resolution_m) step *= 2;
   return step;
 }
 
@@ -103,8 +108,8 @@ int pixelStep(double resolution_m, double pixel_m) {
 
 TsdfVolume::TsdfVolume(const TsdfConfig& config)
     : config_(config),
-      range_m_(std::min(config.range_max_m,
-                        std::sqrt(kNoiseVoxels * config.resolution_m / config.noise.sigma_per_m2))) {}
+      range_m_(
+          std::min(config.range_max_m, std::sqrt(kNoiseVoxels * config.resolution_m / config.noise.sigma_per_m2))) {}
 
 void TsdfVolume::integrate(const RgbdFrame& frame, const Pose3& T_map_camera) {
   const auto pixels = static_cast<std::size_t>(frame.camera.pixels());
@@ -118,8 +123,9 @@ void TsdfVolume::integrate(const RgbdFrame& frame, const Pose3& T_map_camera) {
   const Eigen::Matrix3f step = (config_.resolution_m * rotation).cast<float>();
   for (auto& [index, block] : blocks_) {
     const VoxelIndex first = VoxelMap::firstOf(index);
-    const Vector3d corner_m = rotation * (Vector3d(first.x + 0.5, first.y + 0.5, first.z + 0.5) * config_.resolution_m) +
-                              T_camera_map.position_m;
+    const Vector3d corner_m =
+        rotation * (Vector3d(first.x + 0.5, first.y + 0.5, first.z + 0.5) * config_.resolution_m) +
+        T_camera_map.position_m;
     const Vector3f origin_m = corner_m.cast<float>();
     if (!view.sees(origin_m + step * Vector3f::Constant(0.5F * (VoxelBlock::kSide - 1)))) continue;
     for (int offset = 0; offset < VoxelBlock::kVoxels; ++offset) {

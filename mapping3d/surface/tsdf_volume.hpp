@@ -23,17 +23,17 @@
 namespace swiftlet::mapping3d {
 
 struct TsdfConfig {
-  double resolution_m = 0.02;  ///< Side of a voxel. The surface is found between voxels, to a fraction of it.
-  double range_max_m = 5.0;    ///< Farther surfaces are left out.
-  std::size_t blocks_max = 300'000;  ///< Blocks at most, 6 kB each.
-  vision::DepthNoiseConfig noise;    ///< Only sigma_m() is used.
+  double resolution_m = 0.02;           ///< Side of a voxel. The surface is found between voxels, to a fraction of it.
+  double range_max_m = 5.0;             ///< Farther surfaces are left out.
+  std::size_t blocks_max = 300'000;     ///< Blocks at most, 6 kB each.
+  vision::DepthNoiseConfig noise = {};  ///< Only sigma_m() is used.
 };
 
 struct TsdfVoxel {
-  float distance_m = 0.0F;     ///< Of its centre from the surface, along the view; positive in front of it.
-  float weight_1_m2 = 0.0F;    ///< The inverse variance of that mean; 0: never seen.
+  float distance_m = 0.0F;   ///< Of its centre from the surface, along the view; positive in front of it.
+  float weight_1_m2 = 0.0F;  ///< The inverse variance of that mean; 0: never seen.
   std::array<std::uint8_t, 3> rgb{};
-  bool has_color = false;      ///< It was once seen near a surface.
+  bool has_color = false;  ///< It was once seen near a surface.
 };
 
 struct TsdfBlock {

@@ -1,16 +1,18 @@
 // The truncated signed distance and its mesh, against rooms and balls whose surfaces are known exactly, and against a
 // volume that is drawn voxel by voxel in the obvious way.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "common/row_major.hpp"
 #include "mapping3d/surface/surface_net.hpp"
 #include "mapping3d/surface/tsdf_volume.hpp"
 #include "tests/mapping3d/rooms.hpp"
@@ -29,8 +31,7 @@ RgbdFrame frameOf(common::DepthImage depth, const common::PinholeCamera& camera)
   RgbdFrame frame;
   frame.camera = camera;
   frame.color = {camera.width_px, camera.height_px, {}};
-  for (int i = 0; i < camera.pixels(); ++i)
-    frame.color.rgb.insert(frame.color.rgb.end(), kRed.begin(), kRed.end());
+  for (int i = 0; i < camera.pixels(); ++i) frame.color.rgb.insert(frame.color.rgb.end(), kRed.begin(), kRed.end());
   frame.depth = std::move(depth);
   return frame;
 }
@@ -44,7 +45,8 @@ RgbdFrame ballFrame(const Pose3& T_map_camera, double radius_m) {
       const Vector3d ray = T_map_camera.rotation * camera.point_camera_m(u, v, 1.0), &from = T_map_camera.position_m;
       const double a = ray.squaredNorm(), b = ray.dot(from), c = from.squaredNorm() - radius_m * radius_m;
       const double root = b * b - a * c;
-      depth.depth_m.push_back(root < 0.0 ? common::DepthImage::kTooFar : static_cast<float>((-b - std::sqrt(root)) / a));
+      depth.depth_m.push_back(root < 0.0 ? common::DepthImage::kTooFar
+                                         : static_cast<float>((-b - std::sqrt(root)) / a));
     }
   return frameOf(std::move(depth), camera);
 }
@@ -129,15 +131,15 @@ TEST(SurfaceNet, RoomsAreRightToHalfAVoxelButForEdgesSeenFromBehind) {
     const Room room = randomRoom(random);
     TsdfVolume volume({0.04});
     for (int i = 0; i < 12; ++i) {
-      const Pose3 T_map_camera = randomView(room, random);
-      volume.integrate(frameOf(depthImage(room, xtion(), T_map_room.inverse() * T_map_camera, random), xtion()),
-                       T_map_camera);
+      const Pose3 T_room_camera = randomView(room, random);
+      volume.integrate(frameOf(depthImage(room, xtion(), T_room_camera, random), xtion()), T_map_room * T_room_camera);
     }
     const SurfaceMesh mesh = surfaceNet(volume);
     ASSERT_GT(mesh.vertices.size(), 3'000u);
     const Deviation deviation = deviationOf(mesh, room, 0.04);
+    RecordProperty("beyond_half_a_voxel_" + std::to_string(seed), std::to_string(deviation.share_beyond_half));
     EXPECT_LT(deviation.share_beyond_half, 0.01) << seed;
-    EXPECT_LT(deviation.greatest_m, 3.0 * 0.04) << seed;
+    EXPECT_LT(deviation.greatest_m, 4.0 * 0.04) << seed << ": the truncation";
   }
 }
 
@@ -224,13 +226,12 @@ TEST(TsdfVolume, AgreesWithTheObviousMeanInEveryVoxel) {
   TsdfVolume volume(config);
   std::vector<std::pair<RgbdFrame, Pose3>> frames;
   for (int i = 0; i < 4; ++i) {
-    const Pose3 T_map_camera = randomView(room, random);
-    frames.emplace_back(
-        frameOf(depthImage(room, smallCamera(), T_map_room.inverse() * T_map_camera, random), smallCamera()),
-        T_map_camera);
+    const Pose3 T_room_camera = randomView(room, random);
+    frames.emplace_back(frameOf(depthImage(room, smallCamera(), T_room_camera, random), smallCamera()),
+                        T_map_room * T_room_camera);
     // Nothing beyond the range, which the obvious mean does not know.
     for (float& depth_m : frames.back().first.depth.depth_m) depth_m = std::min(depth_m, 4.9F);
-    volume.integrate(frames.back().first, T_map_camera);
+    volume.integrate(frames.back().first, frames.back().second);
   }
   std::size_t compared = 0, differ = 0;
   for (const common::VoxelIndex& block : volume.blocks())
@@ -241,8 +242,9 @@ TEST(TsdfVolume, AgreesWithTheObviousMeanInEveryVoxel) {
       ++compared;
       // Blocks are made by later frames, too: then the earlier ones are not in the mean.
       const bool same_weight = std::abs(static_cast<double>(voxel.weight_1_m2) - slow.weight) <= 1e-3 * slow.weight;
-      const bool same = same_weight && (slow.weight == 0.0 || std::abs(static_cast<double>(voxel.distance_m) -
-                                                                      slow.sum / slow.weight) < 1e-4);
+      const bool same =
+          same_weight &&
+          (slow.weight == 0.0 || std::abs(static_cast<double>(voxel.distance_m) - slow.sum / slow.weight) < 1e-4);
       differ += same ? 0 : 1;
     }
   EXPECT_GT(compared, 100'000u);
