@@ -193,12 +193,20 @@ common::KeyPoses resultKeys(const Map3dRun& run) {
   return keys;
 }
 
-Map3dMap resultsOf(Map3dRun& run) {
+Map3dMap resultsOf(Map3dRun& run, const std::vector<common::Submap3d>& submaps) {
   const common::KeyPoses keys = resultKeys(run);
-  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
   mapping3d::CloudConfig cloud;
   cloud.cube_m = run.config.submaps.cube_m;
   return {mapping3d::cloudOf(submaps, keys, cloud), mapping3d::fuse(submaps, keys, run.config.voxels.resolution_m)};
+}
+
+/// Whether voxels were forgotten for lack of memory: whole submaps, or parts of one, which then stays nearly full.
+bool areVoxelsMissing(const std::vector<common::Submap3d>& submaps, const mapping3d::VoxelConfig& voxels) {
+  const auto full = static_cast<std::size_t>(voxels.blocks_max) * 9 / 10;
+  return !submaps.empty() && (submaps.front().first_frame > 0 ||
+                              std::any_of(submaps.begin(), submaps.end(), [&](const common::Submap3d& submap) {
+                                return submap.voxels->blockCount() >= full;
+                              }));
 }
 
 /// Reads the recording again, when all loops are closed: each tracked frame is drawn where it is at the end.
@@ -226,11 +234,17 @@ fs::path wholePath(const std::string& folder) {
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// Where the mesh is written: among the results until all of them are there, if that is its folder.
-fs::path meshFile(const Map3dOptions& options, const ResultsFolder& results) {
-  const fs::path file = fs::absolute(options.mesh).lexically_normal();
-  const bool is_result = file.parent_path() == wholePath(results.path());
-  return is_result ? results.unfinished() / file.filename() : file;
+/// Whether the mesh is written into the folder of the results.
+bool isResult(const std::string& mesh, const fs::path& out) {
+  return !mesh.empty() && wholePath(mesh).parent_path() == wholePath(out);
+}
+
+ResultsKind resultsWith(const std::string& mesh, const fs::path& out) {
+  ResultsKind kind = kMap3dResults;
+  const std::string name = fs::path(mesh).filename().string();
+  if (isResult(mesh, out) && std::find(kind.files.begin(), kind.files.end(), name) == kind.files.end())
+    kind.files.push_back(name);
+  return kind;
 }
 
 void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& listing, const ResultsFolder& results,
@@ -239,7 +253,9 @@ void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& li
   const mapping3d::TsdfVolume volume = volumeOf(listing, run, line);
   const common::SurfaceMesh mesh = mapping3d::surfaceNet(volume);
   run.triangles = mesh.triangles.size();
-  interfaces::required(interfaces::writeMesh(meshFile(options, results), mesh));
+  const fs::path file = options.mesh;
+  interfaces::required(interfaces::writeMesh(
+      isResult(options.mesh, results.path()) ? results.unfinished() / file.filename() : file, mesh));
   line.close();
   if (volume.range_m() < run.config.submaps.point_range_m)
     notes.push_back(
@@ -272,11 +288,11 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
 }
 
 /// Throws InputError before the recording is mapped.
-void requireMeshFile(const std::string& file) {
+void requireMeshFile(const std::string& file, const fs::path& out) {
   if (file.empty()) return;
   if (!interfaces::isMeshName(file))
     throw common::InputError({file}, "--mesh", common::Message("map3d.mesh-ending", "is not named .ply or .obj"));
-  interfaces::requireWritableFolder(fs::absolute(file).parent_path(), "--mesh");
+  if (!isResult(file, out)) interfaces::requireWritableFolder(fs::absolute(file).parent_path(), "--mesh");
 }
 
 mapping3d::Mapper3dConfig configOf(const Map3dOptions& options) {
@@ -305,11 +321,12 @@ std::vector<std::pair<std::string, std::string>> factsOf(const Map3dOptions& opt
 }
 
 int map3d(const Map3dOptions& options) {
-  requireMeshFile(options.mesh);
   interfaces::RgbdFolder folder(interfaces::listRgbdFolder(options.folder, options.intrinsics));
   const fs::path recording = wholePath(options.folder);
   const std::string name = (fs::is_directory(recording) ? recording.filename() : recording.stem()).string();
-  ResultsFolder results(options.out.empty() ? fs::path(name + "-map3d") : fs::path(options.out), kMap3dResults);
+  const fs::path out = options.out.empty() ? name + "-map3d" : options.out;
+  requireMeshFile(options.mesh, out);
+  ResultsFolder results(out, resultsWith(options.mesh, out));
   Map3dRun run(configOf(options));
   const double rate_Hz = folder.listing().stamps_per_s;
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
@@ -327,9 +344,12 @@ int map3d(const Map3dOptions& options) {
   const double path_length_m = pathLength_m(trajectory);
   if (!options.mesh.empty()) writeSurface(options, folder.listing(), results, run, shown.warnings);
   shown.facts = factsOf(options, folder, run, path_length_m);
+  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
+  if (areVoxelsMissing(submaps, run.config.voxels))
+    shown.warnings.emplace_back("map.bt is not complete: it would need too much memory at this --resolution");
   ProgressLine line(options.json);
   line.update("100 %  making the cloud, the octree and the report", run.wall_s);
-  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run), shown);
+  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run, submaps), shown);
   results.publish();
   line.close();
   if (options.json) {

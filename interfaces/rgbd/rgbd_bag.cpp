@@ -96,7 +96,7 @@ BagContents contentsOf(const fs::path& file) {
 /// The topic without the name of the transport that compressed its images.
 std::string plainTopic(std::string topic) {
   for (const std::string_view transport : {"/compressedDepth", "/compressed"})
-    if (topic.ends_with(transport)) topic.resize(topic.size() - transport.size());
+    if (topic.ends_with(transport)) topic.erase(topic.size() - transport.size());
   return topic;
 }
 

@@ -23,10 +23,11 @@
 #include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
 
-namespace swiftlet::interfaces {
+namespace swiftlet::interfaces::rgbd_formats {
 namespace {
 
 namespace fs = std::filesystem;
+using bag_bytes::u32;
 using test_support::HasProblem;
 using test_support::problemsOf;
 using testing::Contains;
@@ -226,7 +227,6 @@ TEST(DepthUnits, AreToldFromTheDepths) {
 constexpr const char* kImage = "060021388200f6f0f447d0fcd9c64743";
 constexpr const char* kCompressed = "8f7a12909da2c9d3332d540a0977563f";
 constexpr const char* kInfo = "c9a58c1b0b154e0e6da7578cb991d214";
-using bag_bytes::u32;
 
 std::string header(std::uint32_t ms, const std::string& frame) {
   return u32(0) + u32(10 + ms / 1000) + u32(ms % 1000 * 1'000'000) + bag_bytes::text(frame);
@@ -418,4 +418,4 @@ TEST_F(RgbdBags, ABagThatIsCutIsReadUpToThere) {
 }
 
 }  // namespace
-}  // namespace swiftlet::interfaces
+}  // namespace swiftlet::interfaces::rgbd_formats
