@@ -133,34 +133,35 @@ struct Found {
   Unpaired unpaired;
 };
 
-Found listFrames(const fs::path& folder) {
-  Found found;
-  listFrameFiles(folder, found.listing);
-  if (found.listing.pairs.empty() && found.listing.unpaired == 0) throw notKnown(folder);
-  const CameraFile camera = findCameraFile(folder, imageSizes(found.listing));
+/// Of frames whose images lie side by side.
+void takeCameraOfFrames(const CameraFile& camera, Found& found) {
   if (!isOfSevenScenes(camera)) {
     found.has_units = takeCamera(camera, found.listing);
-    return found;
+    return;
   }
   found.listing.format = "7-Scenes";
   found.listing.calibration = sevenScenesCalibration();
   found.has_units = true;
-  return found;
 }
 
 Found listFolder(const fs::path& folder) {
   Found found;
+  RgbdListing& listing = found.listing;
   if (isThere(folder / "associations.txt") || (isThere(folder / "rgb.txt") && isThere(folder / "depth.txt"))) {
-    found.listing.format = "TUM RGB-D";
-    found.listing.calibration = tumCalibration();
-    found.unpaired = readTumLists(folder, found.listing);
+    listing.format = "TUM RGB-D";
+    listing.calibration = tumCalibration();
+    found.unpaired = readTumLists(folder, listing);
+    return found;
+  }
+  listFrameFiles(folder, listing);
+  if (!listing.pairs.empty() || listing.unpaired > 0) {
+    takeCameraOfFrames(findCameraFile(folder, imageSizes(listing)), found);
     return found;
   }
   const auto [color, depth] = imageFoldersIn(folder);
-  if (!color || !depth) return listFrames(folder);
-  listTwoFolders(*color, *depth, found.listing);
-  if (!found.listing.pairs.empty())
-    found.has_units = takeCamera(findCameraFile(folder, imageSizes(found.listing)), found.listing);
+  if (!color || !depth) throw notKnown(folder);
+  listTwoFolders(*color, *depth, listing);
+  if (!listing.pairs.empty()) found.has_units = takeCamera(findCameraFile(folder, imageSizes(listing)), listing);
   return found;
 }
 

@@ -18,8 +18,9 @@ using common::VoxelIndex;
 using common::VoxelMap;
 using Eigen::Vector3f;
 
-/// Along the view the distance grows by a voxel a voxel, across a surface seen at 70 degrees by this many.
-constexpr float kSteepestVoxels = 3.0F;
+/// Along the view the distance grows by a voxel a voxel, across a surface seen at 75 degrees by this many. That is the
+/// greatest slope of depth_between.cpp.
+constexpr float kSteepestVoxels = 4.0F;
 /// And by the errors of both means, in standard deviations.
 constexpr float kErrorSigmas = 2.0F;
 
