@@ -17,11 +17,18 @@
 #include "common/error.hpp"
 #include "flight/system.hpp"
 #include "flight/wall_clock.hpp"
+#include "interfaces/clouds/point_cloud.hpp"
+#include "interfaces/files/required.hpp"
 #include "interfaces/files/tum.hpp"
+#include "interfaces/files/unusable_folder.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/cloud/cloud.hpp"
+#include "mapping3d/model/map_resolution.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 #include "mapping3d/odometry/recorded_seeds.hpp"
+#include "mapping3d/surface/surface_net.hpp"
+#include "mapping3d/surface/tsdf_volume.hpp"
 #include "mapping3d/voxels/point_voxels.hpp"
 
 namespace swiftlet::apps {
@@ -40,7 +47,8 @@ struct Map3dOptions {
   std::string intrinsics;
   std::string system = "swiftlet";
   std::string out;
-  bool mesh = false;
+  std::string mesh;
+  std::optional<double> resolution_m;
   bool json = false;
 };
 
@@ -137,9 +145,8 @@ common::Trajectory givenPoses(const Map3dOptions& options) {
 }
 
 /// Throws InputError if a frame would be where the octree of the results, map.bt, does not reach.
-void requireInReach(const Map3dOptions& options, const common::Trajectory& poses,
-                    const interfaces::RgbdFolder& folder) {
-  const mapping3d::VoxelConfig voxels;
+void requireInReach(const Map3dOptions& options, const common::Trajectory& poses, const interfaces::RgbdFolder& folder,
+                    const mapping3d::VoxelConfig& voxels) {
   const double reach_m = mapping3d::octreeReach_m(voxels.resolution_m) - voxels.range_max_m;
   const auto gap = common::Duration::fromSeconds(mapping3d::RecordedSeeds::kLongestGap_s);
   for (const auto& pair : folder.listing().pairs) {
@@ -179,13 +186,84 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
 }
 
 /// In the axes of the results, which the trajectory has too.
-Map3dMap resultsOf(Map3dRun& run) {
+common::KeyPoses resultKeys(const Map3dRun& run) {
   common::KeyPoses keys = *run.mapper.scans();
   const Pose3 T_results = T_results_map(run);
   for (common::KeyPose& key : keys.keys) key.T_map_camera = T_results * *key.T_map_camera;
-  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
-  const double resolution_m = mapping3d::VoxelConfig().resolution_m;
-  return {mapping3d::cloudOf(submaps, keys), mapping3d::fuse(submaps, keys, resolution_m)};
+  return keys;
+}
+
+Map3dMap resultsOf(Map3dRun& run, const std::vector<common::Submap3d>& submaps) {
+  const common::KeyPoses keys = resultKeys(run);
+  mapping3d::CloudConfig cloud;
+  cloud.cube_m = run.config.submaps.cube_m;
+  return {mapping3d::cloudOf(submaps, keys, cloud), mapping3d::fuse(submaps, keys, run.config.voxels.resolution_m)};
+}
+
+/// Whether voxels were forgotten for lack of memory: whole submaps, or parts of one, which then stays nearly full.
+bool areVoxelsMissing(const std::vector<common::Submap3d>& submaps, const mapping3d::VoxelConfig& voxels) {
+  const auto full = static_cast<std::size_t>(voxels.blocks_max) * 9 / 10;
+  return !submaps.empty() && (submaps.front().first_frame > 0 ||
+                              std::any_of(submaps.begin(), submaps.end(), [&](const common::Submap3d& submap) {
+                                return submap.voxels->blockCount() >= full;
+                              }));
+}
+
+/// Reads the recording again, when all loops are closed: each tracked frame is drawn where it is at the end.
+mapping3d::TsdfVolume volumeOf(const interfaces::RgbdListing& listing, const Map3dRun& run, ProgressLine& line) {
+  const common::KeyPoses keys = resultKeys(run);
+  mapping3d::TsdfVolume volume({run.config.submaps.cube_m, run.config.submaps.point_range_m});
+  interfaces::RgbdFolder folder(listing);
+  const auto begin = flight::Clock::now();
+  auto tracked = run.tracked.begin();
+  while (tracked != run.tracked.end()) {
+    const auto frame = folder.next();
+    if (!frame) break;
+    if (frame->stamps.measured != tracked->stamp) continue;
+    volume.integrate(*frame, keys.T_map_level(tracked->scan) * tracked->T_scan_camera);
+    ++tracked;
+    line.update(static_cast<double>(tracked - run.tracked.begin()) / static_cast<double>(run.tracked.size()),
+                "drawing the mesh", flight::secondsSince(begin));
+  }
+  return volume;
+}
+
+/// "." has a name, too.
+fs::path wholePath(const std::string& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// Whether the mesh is written into the folder of the results.
+bool isResult(const std::string& mesh, const fs::path& out) {
+  return !mesh.empty() && wholePath(mesh).parent_path() == wholePath(out);
+}
+
+ResultsKind resultsWith(const std::string& mesh, const fs::path& out) {
+  ResultsKind kind = kMap3dResults;
+  const std::string name = fs::path(mesh).filename().string();
+  if (isResult(mesh, out) && std::find(kind.files.begin(), kind.files.end(), name) == kind.files.end())
+    kind.files.push_back(name);
+  return kind;
+}
+
+void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& listing, const ResultsFolder& results,
+                  Map3dRun& run, std::vector<std::string>& notes) {
+  ProgressLine line(options.json);
+  const mapping3d::TsdfVolume volume = volumeOf(listing, run, line);
+  const common::SurfaceMesh mesh = mapping3d::surfaceNet(volume);
+  run.triangles = mesh.triangles.size();
+  const fs::path file = options.mesh;
+  interfaces::required(interfaces::writeMesh(
+      isResult(options.mesh, results.path()) ? results.unfinished() / file.filename() : file, mesh));
+  line.close();
+  if (volume.range_m() < run.config.submaps.point_range_m)
+    notes.push_back(
+        fmt::format("the mesh has surfaces up to {:.1f} m from the camera: farther ones are too noisy for "
+                    "voxels of {:g} m",
+                    volume.range_m(), volume.resolution_m()));
+  if (volume.isFull())
+    notes.emplace_back("the mesh is not complete: it would need too much memory at this --resolution");
 }
 
 nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, const Map3dRun& run,
@@ -203,26 +281,56 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"key_frames", run.key_frames},
           {"loops", run.loops},
           {"path_length_m", path_length_m},
+          {"mesh_triangles", run.triangles},
           {"milliseconds_a_frame", run.medianMs()},
           {"seconds", run.wall_s},
           {"notes", notes}};
 }
 
-/// "." has a name, too.
-fs::path wholePath(const std::string& folder) {
-  const fs::path whole = fs::absolute(folder).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
+/// Throws InputError before the recording is mapped.
+void requireMeshFile(const std::string& file, const fs::path& out) {
+  if (file.empty()) return;
+  if (!interfaces::isMeshName(file))
+    throw common::InputError({file}, "--mesh", common::Message("map3d.mesh-ending", "is not named .ply or .obj"));
+  if (!isResult(file, out)) interfaces::requireWritableFolder(fs::absolute(file).parent_path(), "--mesh");
+}
+
+mapping3d::Mapper3dConfig configOf(const Map3dOptions& options) {
+  auto config = mapping3d::configOfRecordings(
+      flight::loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
+  if (options.resolution_m) mapping3d::setResolution(*options.resolution_m, config);
+  return config;
+}
+
+std::vector<std::pair<std::string, std::string>> factsOf(const Map3dOptions& options,
+                                                         const interfaces::RgbdFolder& folder, const Map3dRun& run,
+                                                         double path_length_m) {
+  std::vector<std::pair<std::string, std::string>> facts{{"format", folder.listing().format},
+                                                         {"frames", fmt::format("{}", run.frames)},
+                                                         {"skipped", fmt::format("{}", folder.skipped())}};
+  if (!run.given.empty()) facts.emplace_back("with a pose", fmt::format("{}", run.with_pose));
+  facts.insert(facts.end(), {{"lost", fmt::format("{}", run.lost)},
+                             {"key frames", fmt::format("{}", run.key_frames)},
+                             {"loop closures", fmt::format("{}", run.loops)},
+                             {"path length", fmt::format("{:.2f} m", path_length_m)},
+                             {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
+                             {"computing time", fmt::format("{:.1f} s", run.wall_s)}});
+  if (!options.mesh.empty())
+    facts.emplace_back("mesh", fmt::format("{}, {}", options.mesh, plural(run.triangles, "triangle", "triangles")));
+  return facts;
 }
 
 int map3d(const Map3dOptions& options) {
   interfaces::RgbdFolder folder(interfaces::listRgbdFolder(options.folder, options.intrinsics));
   const fs::path recording = wholePath(options.folder);
-  ResultsFolder results(
-      options.out.empty() ? fs::path(recording.filename().string() + "-map3d") : fs::path(options.out), kMap3dResults);
-  Map3dRun run(flight::loadSystem(options.system).config.autonomy.estimator.rgbd.mapper.odometry.method);
+  const std::string name = (fs::is_directory(recording) ? recording.filename() : recording.stem()).string();
+  const fs::path out = options.out.empty() ? name + "-map3d" : options.out;
+  requireMeshFile(options.mesh, out);
+  ResultsFolder results(out, resultsWith(options.mesh, out));
+  Map3dRun run(configOf(options));
   const double rate_Hz = folder.listing().stamps_per_s;
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
-  requireInReach(options, run.given, folder);
+  requireInReach(options, run.given, folder, run.config.voxels);
   mapFolder(folder, options, run);
   Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
@@ -234,20 +342,14 @@ int map3d(const Map3dOptions& options) {
   }
   const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
   const double path_length_m = pathLength_m(trajectory);
-  shown.facts = {{"format", folder.listing().format},
-                 {"frames", fmt::format("{}", run.frames)},
-                 {"skipped", fmt::format("{}", folder.skipped())},
-                 {"lost", fmt::format("{}", run.lost)},
-                 {"key frames", fmt::format("{}", run.key_frames)},
-                 {"loop closures", fmt::format("{}", run.loops)},
-                 {"path length", fmt::format("{:.2f} m", path_length_m)},
-                 {"time a frame", fmt::format("{:.1f} ms", run.medianMs())},
-                 {"computing time", fmt::format("{:.1f} s", run.wall_s)}};
-  if (!run.given.empty())
-    shown.facts.insert(shown.facts.begin() + 3, {"with a pose", fmt::format("{}", run.with_pose)});
+  if (!options.mesh.empty()) writeSurface(options, folder.listing(), results, run, shown.warnings);
+  shown.facts = factsOf(options, folder, run, path_length_m);
+  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
+  if (areVoxelsMissing(submaps, run.config.voxels))
+    shown.warnings.emplace_back("map.bt is not complete: it would need too much memory at this --resolution");
   ProgressLine line(options.json);
   line.update("100 %  making the cloud, the octree and the report", run.wall_s);
-  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run), shown, options.mesh);
+  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run, submaps), shown);
   results.publish();
   line.close();
   if (options.json) {
@@ -267,18 +369,26 @@ void addMap3d(Command& program) {
   auto options = std::make_shared<Map3dOptions>();
   Command command = program.command("map3d", "Make the 3D map of a recorded RGB-D camera.");
   command.argument("folder", options->folder,
-                   "Frames in the format of TUM RGB-D (rgb.txt and depth.txt, or associations.txt) or of 7-Scenes "
-                   "(frame-000000.color.png, .depth.png).");
+                   "Frames in the format of TUM RGB-D (rgb.txt and depth.txt, or associations.txt), of 7-Scenes or "
+                   "tsdf-fusion (frame-000000.color.png, .depth.png; camera-intrinsics.txt), of Open3D, Redwood or "
+                   "ScanNet (color/, depth/; camera_intrinsic.json, intrinsic/intrinsic_depth.txt), or a rosbag 1 with "
+                   "images, depths and CameraInfo.");
   command.option("--poses", options->poses,
                  "Poses of the camera from other sensors, to begin each alignment with: TUM (t x y z qx qy qz qw), or "
                  "none.");
-  command.option("--intrinsics", options->intrinsics,
-                 "Calibration of the camera (YAML), as far as it differs from the usual one of the format. Default: "
-                 "calibration.yaml of the folder, if there is one.");
+  command.option(
+      "--intrinsics", options->intrinsics,
+      "Calibration of the camera (YAML), as far as it differs from that of the recording or of the format. Default: "
+      "calibration.yaml of the folder, if there is one.");
   command.option("--system", options->system,
                  "A profile of config/systems, or a file: the method that finds the pose of a frame.");
   command.option("--out", options->out, "Folder for the results. NAME-map3d when not given.");
-  command.flag("--mesh", options->mesh, "Also write mesh.ply, the surfaces of the map as coloured triangles.");
+  command.option(
+      "--resolution", options->resolution_m, {0.005, 0.5},
+      "Side of voxels and of the cubes of points, in metres. Default: 0.05 for map.bt, 0.02 for cloud.ply and "
+      "the mesh. Fine voxels reach only as far as depths are that precise: 1.9 m at 0.005.");
+  command.option("--mesh", options->mesh,
+                 "Also write the surfaces as coloured triangles to this file, .ply or .obj. Reads the frames twice.");
   command.flag("--json", options->json, "Print the figures as JSON.");
   command.footer(
       "trajectory.tum has the poses of the camera with x right, y down and z along the view, as the ground truth of\n"

@@ -92,6 +92,7 @@ void noteOnStamps(const RgbdFolder& folder, std::vector<std::string>& notes) {
 }
 
 void noteOnFrames(const RgbdFolder& folder, std::vector<std::string>& notes) {
+  notes.insert(notes.end(), folder.listing().notes.begin(), folder.listing().notes.end());
   if (folder.listing().unpaired > 0)
     notes.push_back(plural(folder.listing().unpaired, "image has", "images have") + " no partner of the same time");
   for (std::size_t i = 0; i < interfaces::kFrameFaults; ++i) {

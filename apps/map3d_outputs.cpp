@@ -9,7 +9,6 @@
 #include "interfaces/files/tum.hpp"
 #include "interfaces/report/report.hpp"
 #include "interfaces/rgbd/rgbd_calibration.hpp"
-#include "mapping3d/voxels/surface_mesh.hpp"
 #include "rendering/picture3d.hpp"
 #include "rendering/plot_svg.hpp"
 
@@ -65,12 +64,11 @@ std::string pictureOf(const Map3dMap& map, const common::Trajectory& trajectory)
 }  // namespace
 
 void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
-                       const Map3dFigures& figures, bool mesh) {
+                       const Map3dFigures& figures) {
   auto writer = required(interfaces::TumWriter::create(out / "trajectory.tum"));
   for (const common::StampedPose& at : trajectory) required(writer.write(at));
   required(interfaces::writeCloud(out / "cloud.ply", map.cloud));
   required(interfaces::writeOctree(out / "map.bt", map.voxels));
-  if (mesh) required(interfaces::writeMesh(out / "mesh.ply", mapping3d::surfaceMesh(map.voxels, map.cloud)));
 
   interfaces::MapReport report;
   report.version = flight::buildVersion();

@@ -15,10 +15,11 @@
 namespace swiftlet::apps {
 
 inline const std::string kMap3dTitle = "3D map of ";
-inline const ResultsKind kMap3dResults{"3D map",
-                                       "report.html",
-                                       "<title>" + kMap3dTitle,
-                                       {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply"}};
+inline const ResultsKind kMap3dResults{
+    "3D map",
+    "report.html",
+    "<title>" + kMap3dTitle,
+    {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply", "mesh.obj"}};
 
 /// In the frame of the trajectory.
 struct Map3dMap {
@@ -35,9 +36,9 @@ struct Map3dFigures {
   rendering::ThinnedCurve disagreement;
 };
 
-/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. With `mesh`
-/// there is a mesh.ply, too. Throws InputError if a file cannot be written.
+/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. Throws
+/// InputError if a file cannot be written.
 void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
-                       const Map3dFigures& figures, bool mesh);
+                       const Map3dFigures& figures);
 
 }  // namespace swiftlet::apps

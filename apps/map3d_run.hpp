@@ -28,12 +28,9 @@ struct WorldAnchor {
 };
 
 struct Map3dRun {
-  using Method = mapping3d::RgbdOdometryConfig::Method;
+  explicit Map3dRun(const mapping3d::Mapper3dConfig& mapper_config) : config(mapper_config), mapper(config) {}
 
-  explicit Map3dRun(Method odometry = Method::kDirect)
-      : method(odometry), mapper(mapping3d::configOfRecordings(odometry)) {}
-
-  Method method;
+  mapping3d::Mapper3dConfig config;
   mapping3d::Mapper3d mapper;
   std::vector<TrackedFrame> tracked;
   std::optional<WorldAnchor> anchor;
@@ -46,6 +43,7 @@ struct Map3dRun {
   std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
   std::uint64_t lost_in_a_row = 0;  ///< Up to the newest frame.
   std::uint64_t before = 0;         ///< Frames before the one that the map begins with.
+  std::size_t triangles = 0;        ///< Of the mesh; 0 if none was made.
   double wall_s = 0.0;
 
   /// Whether the few frames tracked so far are of a place that the camera does not come back to, at this time.
@@ -58,7 +56,7 @@ struct Map3dRun {
 
   /// Forgets the map; the next frame begins another.
   void beginAnew() {
-    mapper = mapping3d::Mapper3d(mapping3d::configOfRecordings(method));
+    mapper = mapping3d::Mapper3d(config);
     tracked.clear();
     before = frames;
     lost = lost_in_a_row = found_again = key_frames = loops = 0;

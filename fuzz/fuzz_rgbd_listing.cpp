@@ -9,7 +9,7 @@
 
 #include "common/error.hpp"
 #include "fuzz/scratch.hpp"
-#include "interfaces/rgbd/rgbd_listing.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;

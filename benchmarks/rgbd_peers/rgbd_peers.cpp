@@ -21,6 +21,7 @@
 #include "common/quantile.hpp"
 #include "common/table.hpp"
 #include "evaluation/trajectory_metrics.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/model/mapper3d.hpp"
 #include "tests/support/recorded_rgbd.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,30 @@ void writePieces(std::span<const SurfacePoint> points, CloudFormat format, const
   write(bytes);
 }
 
+std::string plyOf(const common::SurfaceMesh& mesh) {
+  std::string bytes = plyHeader(mesh.vertices.size(), {false, true}, mesh.triangles.size());
+  for (const auto& [position_m, rgb] : mesh.vertices) {
+    append(bytes, position_m);
+    for (const std::uint8_t color : rgb) bytes.push_back(static_cast<char>(color));
+  }
+  for (const auto& triangle : mesh.triangles) {
+    bytes.push_back(3);
+    for (const std::uint32_t vertex : triangle) append(bytes, vertex);
+  }
+  return bytes;
+}
+
+/// Vertices count from 1.
+std::string objOf(const common::SurfaceMesh& mesh) {
+  std::string text = "# metres\n";
+  const auto out = std::back_inserter(text);
+  for (const auto& [position_m, rgb] : mesh.vertices)
+    fmt::format_to(out, "v {:.5f} {:.5f} {:.5f} {:.4f} {:.4f} {:.4f}\n", position_m.x(), position_m.y(), position_m.z(),
+                   rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+  for (const auto& [a, b, c] : mesh.triangles) fmt::format_to(out, "f {} {} {}\n", a + 1, b + 1, c + 1);
+  return text;
+}
+
 }  // namespace
 
 std::optional<CloudFormat> cloudFormatOf(const std::filesystem::path& file) {
@@ -95,17 +120,14 @@ Written writeCloud(const std::filesystem::path& file, std::span<const SurfacePoi
   return writeAtomically(file, [&](const WriteBytes& write) { writePieces(points, *format, write); });
 }
 
+bool isMeshName(const std::filesystem::path& file) {
+  const std::string ending = common::endingOf(file);
+  return ending == ".ply" || ending == ".obj";
+}
+
 Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh) {
-  std::string bytes = plyHeader(mesh.vertices.size(), {false, true}, mesh.triangles.size());
-  for (const auto& [position_m, rgb] : mesh.vertices) {
-    append(bytes, position_m);
-    for (const std::uint8_t color : rgb) bytes.push_back(static_cast<char>(color));
-  }
-  for (const auto& triangle : mesh.triangles) {
-    bytes.push_back(3);
-    for (const std::uint32_t vertex : triangle) append(bytes, vertex);
-  }
-  return writeAtomically(file, bytes);
+  SWIFTLET_CHECK(isMeshName(file), file.string());
+  return writeAtomically(file, common::endingOf(file) == ".obj" ? objOf(mesh) : plyOf(mesh));
 }
 
 StoredCloud parseCloud(std::string_view bytes, const std::string& name, CloudFormat format,

@@ -32,7 +32,11 @@ std::string toCloud(std::span<const common::SurfacePoint> points, CloudFormat fo
 /// Writes the file in one step, in the format of the name's ending, which must be one of the two.
 [[nodiscard]] Written writeCloud(const std::filesystem::path& file, std::span<const common::SurfacePoint> points);
 
-/// Writes triangles in one step, as .ply whatever the name's ending is.
+/// Of files that triangles are written to; packed ones are not.
+bool isMeshName(const std::filesystem::path& file);
+
+/// Writes triangles in one step: binary as .ply, or as text as .obj (Wavefront), whose vertices have their colours
+/// behind their places, as MeshLab, Blender and Open3D read them. The name's ending must be one of the two.
 [[nodiscard]] Written writeMesh(const std::filesystem::path& file, const common::SurfaceMesh& mesh);
 
 /// Reads text and binary files of either format, those of PCL compressed too, and such files packed by gzip, bzip2 or

@@ -38,7 +38,7 @@ RecordedPoses readRecordedPoses(const fs::path& path) {
   if (fs::is_directory(path, failure)) {
     for (const char* name : {"trajectory.tum", "groundtruth.txt", "trajectory.log"})
       if (fs::exists(path / name, failure)) return readRecordedPoses(path / name);
-    return readNumberedFrames(path);
+    return readNumberedFrames(fs::is_directory(path / "pose", failure) ? path / "pose" : path);
   }
   LineReader reader(path);
   std::vector<Word> words;

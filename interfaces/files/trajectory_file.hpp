@@ -13,8 +13,9 @@
 namespace swiftlet::interfaces {
 
 /// The poses in the order of the file, plain or compressed. The number of words on line 1 decides the format. Of
-/// a folder: its trajectory.tum, groundtruth.txt or trajectory.log, or else its numbered frames. Throws
-/// InputError with file, line and column for anything that is not a pose, and if there is not a single one.
+/// a folder: its trajectory.tum, groundtruth.txt or trajectory.log, or else its numbered frames, which may be in pose/
+/// (ScanNet). Throws InputError with file, line and column for anything that is not a pose, and if there is not a
+/// single one.
 RecordedPoses readRecordedPoses(const std::filesystem::path& path);
 
 /// The poses of a file that has stamps. Throws InputError for one that has none.

@@ -135,6 +135,20 @@ DepthImage registered(const DepthImage& depth, const PinholeCamera& depth_camera
   return seen;
 }
 
+/// Colours of at least twice the width of the depths are halved: a frame has as many depths as colours, and those
+/// between the measured ones would say nothing.
+Image asFineAs(const common::DepthCodes& depth, Image color) {
+  while (color.width_px >= 2 * depth.width_px && color.width_px % 2 == 0 && color.height_px % 2 == 0) {
+    Image half{color.width_px / 2, color.height_px / 2, {}};
+    half.rgb.resize(color.rgb.size() / 4);
+    cv::Mat to(half.height_px, half.width_px, CV_8UC3, half.rgb.data());
+    cv::resize(cv::Mat(color.height_px, color.width_px, CV_8UC3, color.rgb.data()), to, to.size(), 0.0, 0.0,
+               cv::INTER_AREA);
+    color = std::move(half);
+  }
+  return color;
+}
+
 }  // namespace
 
 void LensCalibration::describe(common::config::Fields& fields) {
@@ -204,6 +218,7 @@ bool hasShapeOf(const LensCalibration& lens, int width_px, int height_px) {
 
 common::RgbdFrame makeFrame(const RgbdCalibration& calibration, common::Image color, const common::DepthCodes& depth) {
   common::RgbdFrame frame;
+  if (!calibration.is_registered) color = asFineAs(depth, std::move(color));
   frame.camera = cameraOf(calibration.color, color.width_px, color.height_px);
   const LensMap color_map = lensMap(calibration.color, frame.camera);
   frame.color = undistorted(color_map, std::move(color));

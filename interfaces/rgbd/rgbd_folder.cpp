@@ -1,7 +1,8 @@
 #include "interfaces/rgbd/rgbd_folder.hpp"
 
-#include <algorithm>
 #include <numeric>
+#include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -9,6 +10,8 @@
 #include "common/error.hpp"
 #include "common/hash.hpp"
 #include "common/read_bytes.hpp"
+#include "interfaces/rgbd/image_messages.hpp"
+#include "interfaces/rgbd/rgbd_bag.hpp"
 
 namespace swiftlet::interfaces {
 namespace {
@@ -39,14 +42,66 @@ std::optional<FrameFault> faultOf(const common::DepthCodes& depth, double units_
   return std::nullopt;
 }
 
-/// The bytes of an image file; nullopt with the reason in `skipped`.
-std::optional<std::string> bytesOf(const fs::path& file, SkippedFrame& skipped) {
+/// The two images of a pair as they are stored.
+struct StoredImages {
+  common::Image color;
+  common::DepthCodes depth;
+  std::uint64_t hash = 0;  ///< Of what is stored.
+};
+using StoredOrSkipped = tl::expected<StoredImages, SkippedFrame>;
+
+StoredOrSkipped imagesOf(const RgbdListing::Pair& pair, tl::expected<common::Image, common::ImageFault> color,
+                         tl::expected<common::DepthCodes, common::ImageFault> depth) {
+  const auto unreadable = [](const fs::path& image, const common::ImageFault& fault) {
+    return tl::unexpected(
+        SkippedFrame{FrameFault::kUnreadable, fmt::format("{}: {}", image.string(), fault.reason.text())});
+  };
+  if (!color) return unreadable(pair.color, color.error());
+  if (!depth) return unreadable(pair.depth, depth.error());
+  return StoredImages{*std::move(color), *std::move(depth), 0};
+}
+
+StoredOrSkipped fromFiles(const RgbdListing::Pair& pair) {
   try {
-    return common::readBytes(file, kMostImageBytes);
+    const std::string color = common::readBytes(pair.color, kMostImageBytes);
+    const std::string depth = common::readBytes(pair.depth, kMostImageBytes);
+    auto images = imagesOf(pair, common::decodeColor(color), common::decodeDepth(depth));
+    if (images) images->hash = common::fnv1a(depth) + 31 * common::fnv1a(color);
+    return images;
   } catch (const common::InputError& error) {
-    skipped = {FrameFault::kMissing, error.what()};
-    return std::nullopt;
+    return tl::unexpected(SkippedFrame{FrameFault::kMissing, error.what()});
   }
+}
+
+template <typename Number>
+std::string_view bytesOf(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+/// Its messages have times and numbers of their own, so the pixels tell whether an image is repeated.
+StoredOrSkipped fromBag(RgbdBagImages& bag, const RgbdListing::Pair& pair) {
+  const auto [color, depth] = bag.of(pair);
+  if (color == nullptr || depth == nullptr)
+    return tl::unexpected(SkippedFrame{FrameFault::kMissing, (color == nullptr ? pair.color : pair.depth).string() +
+                                                                 ": is not in the bag, or too far "
+                                                                 "from its partner there"});
+  auto images = imagesOf(pair, colorOf(*color), depthOf(*depth));
+  if (images)
+    images->hash = common::fnv1a(bytesOf(images->depth.codes)) + 31 * common::fnv1a(bytesOf(images->color.rgb));
+  return images;
+}
+
+/// Why images of these sizes do not belong to the calibration; empty if they do.
+std::string sizeFault(const RgbdCalibration& known, const common::Image& color, const common::DepthCodes& depth) {
+  const bool same_size = color.width_px == depth.width_px && color.height_px == depth.height_px;
+  if (hasShapeOf(known.color, color.width_px, color.height_px) &&
+      (known.is_registered ? same_size : hasShapeOf(known.depth, depth.width_px, depth.height_px)))
+    return "";
+  return fmt::format("{}x{}, its depth {}x{}, the calibration {}x{}{}", color.width_px, color.height_px, depth.width_px,
+                     depth.height_px, known.color.width_px, known.color.height_px,
+                     known.is_registered
+                         ? std::string()
+                         : fmt::format(", its depth {}x{}", known.depth.width_px, known.depth.height_px));
 }
 
 }  // namespace
@@ -79,54 +134,31 @@ std::uint64_t RgbdFolder::skipped() const {
   return std::accumulate(skipped_.begin(), skipped_.end(), std::uint64_t{0});
 }
 
+RgbdFolder::RgbdFolder(RgbdListing listing) : listing_(std::move(listing)) {
+  if (listing_.bag) bag_ = std::make_unique<RgbdBagImages>(*listing_.bag);
+}
+
+RgbdFolder::~RgbdFolder() = default;
+RgbdFolder::RgbdFolder(RgbdFolder&&) noexcept = default;
+
 std::optional<common::RgbdFrame> RgbdFolder::read(const RgbdListing::Pair& pair, SkippedFrame& skipped) {
-  if (last_stamp_ && pair.stamp <= *last_stamp_) {
-    skipped = {FrameFault::kStampRepeated, pair.color.string()};
+  const auto skip = [&](FrameFault fault, std::string detail) {
+    skipped = {fault, std::move(detail)};
     return std::nullopt;
-  }
-  const std::optional<std::string> color_bytes = bytesOf(pair.color, skipped);
-  const std::optional<std::string> depth_bytes = color_bytes ? bytesOf(pair.depth, skipped) : std::nullopt;
-  if (!depth_bytes) return std::nullopt;
-  const std::uint64_t hash = common::fnv1a(*depth_bytes) + 31 * common::fnv1a(*color_bytes);
-  const bool repeated = last_stamp_ && hash == last_hash_;
-  last_hash_ = hash;
-  if (repeated) {
-    skipped = {FrameFault::kRepeated, pair.color.string()};
-    return std::nullopt;
-  }
-  auto color = common::decodeColor(*color_bytes);
-  if (!color) {
-    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.color.string(), color.error().reason.text())};
-    return std::nullopt;
-  }
-  const auto depth = common::decodeDepth(*depth_bytes);
-  if (!depth) {
-    skipped = {FrameFault::kUnreadable, fmt::format("{}: {}", pair.depth.string(), depth.error().reason.text())};
-    return std::nullopt;
-  }
-  const RgbdCalibration& known = listing_.calibration;
-  const bool same_size = color->width_px == depth->width_px && color->height_px == depth->height_px;
-  const bool shapes_fit =
-      hasShapeOf(known.color, color->width_px, color->height_px) &&
-      (known.is_registered ? same_size : hasShapeOf(known.depth, depth->width_px, depth->height_px));
-  if (!shapes_fit) {
-    skipped = {
-        FrameFault::kOtherSize,
-        fmt::format("{}: {}x{}, its depth {}x{}, the calibration {}x{}{}", pair.color.string(), color->width_px,
-                    color->height_px, depth->width_px, depth->height_px, known.color.width_px, known.color.height_px,
-                    known.is_registered
-                        ? std::string()
-                        : fmt::format(", its depth {}x{}", known.depth.width_px, known.depth.height_px))};
-    return std::nullopt;
-  }
-  std::optional<FrameFault> fault = faultOf(*depth, known.depth_units_per_m);
-  const common::Blank blank = common::blankOf(*color);
+  };
+  if (last_stamp_ && pair.stamp <= *last_stamp_) return skip(FrameFault::kStampRepeated, pair.color.string());
+  StoredOrSkipped images = bag_ ? fromBag(*bag_, pair) : fromFiles(pair);
+  if (!images) return skip(images.error().fault, std::move(images.error().detail));
+  const bool repeated = last_stamp_ && images->hash == last_hash_;
+  last_hash_ = images->hash;
+  if (repeated) return skip(FrameFault::kRepeated, pair.color.string());
+  const std::string size_fault = sizeFault(listing_.calibration, images->color, images->depth);
+  if (!size_fault.empty()) return skip(FrameFault::kOtherSize, fmt::format("{}: {}", pair.color.string(), size_fault));
+  std::optional<FrameFault> fault = faultOf(images->depth, listing_.calibration.depth_units_per_m);
+  const common::Blank blank = common::blankOf(images->color);
   if (blank != common::Blank::kNo) fault = blank == common::Blank::kBlack ? FrameFault::kBlack : FrameFault::kWhite;
-  if (fault) {
-    skipped = {*fault, pair.color.string()};
-    return std::nullopt;
-  }
-  common::RgbdFrame frame = makeFrame(known, std::move(*color), *depth);
+  if (fault) return skip(*fault, pair.color.string());
+  common::RgbdFrame frame = makeFrame(listing_.calibration, std::move(images->color), images->depth);
   frame.stamps = {pair.stamp, pair.stamp};
   return frame;
 }

@@ -1,13 +1,12 @@
-// The frames of a folder, one after another. Frames that cannot be used are skipped and counted.
+// The frames of a recording, one after another. Frames that cannot be used are skipped and counted.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "common/rgbd_frame.hpp"
 #include "interfaces/rgbd/rgbd_listing.hpp"
@@ -36,10 +35,14 @@ struct SkippedFrame {
   std::string detail;  ///< The file and the reason.
 };
 
+class RgbdBagImages;
+
 class RgbdFolder {
  public:
   /// Frames are made with the calibration of the listing.
-  explicit RgbdFolder(RgbdListing listing) : listing_(std::move(listing)) {}
+  explicit RgbdFolder(RgbdListing listing);
+  ~RgbdFolder();
+  RgbdFolder(RgbdFolder&&) noexcept;
 
   /// The next usable frame, in the order of the stamps; nullopt at the end.
   std::optional<common::RgbdFrame> next();
@@ -58,6 +61,7 @@ class RgbdFolder {
   std::optional<common::RgbdFrame> read(const RgbdListing::Pair& pair, SkippedFrame& skipped);
 
   RgbdListing listing_;
+  std::unique_ptr<RgbdBagImages> bag_;  ///< Only of a bag.
   std::size_t at_ = 0;
   std::optional<common::Time> last_stamp_;
   std::uint64_t last_hash_ = 0;

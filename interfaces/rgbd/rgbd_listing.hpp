@@ -1,8 +1,10 @@
-// What a folder of recorded RGB-D frames holds: the pairs of image files in the order of their stamps.
+// What a recording of an RGB-D camera holds: the pairs of images in the order of their stamps.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,30 +13,32 @@
 
 namespace swiftlet::interfaces {
 
+/// Two topics of a rosbag.
+struct BagImages {
+  std::filesystem::path file;
+  std::string color_topic, depth_topic;
+};
+
 struct RgbdListing {
   struct Pair {
     common::Time stamp;
+    /// The files of the images. Of a bag, the names of the messages, whose numbers in their topics follow.
     std::filesystem::path color, depth;
+    std::size_t color_message = 0, depth_message = 0;
   };
 
   std::string format;           ///< For people: "TUM RGB-D".
-  RgbdCalibration calibration;  ///< Calibration of the format.
+  RgbdCalibration calibration;  ///< Of the format or of the recording, or that which the user gave.
   std::vector<Pair> pairs;
   /// Factor from the pairs' stamps to those in its lists: 1, or the frame rate where its lists number the
   /// frames.
   double stamps_per_s = 1.0;
-  std::uint64_t unpaired = 0;  ///< Images of which the other one is not listed, or not at the same time.
+  std::uint64_t unpaired = 0;    ///< Images of which the other one is not listed, or not at the same time.
+  std::optional<BagImages> bag;  ///< Only of a bag.
+  /// What was assumed where the recording says nothing, or found to be wrong with it; for people.
+  std::vector<std::string> notes;
 };
 
-/// Recognizes folders in the format of TUM RGB-D (associations.txt, or rgb.txt and depth.txt) and of 7-Scenes
-/// (frame-XXXXXX.color.png or .jpg, .depth.png). Throws InputError for any other folder, for a list that cannot be read
-/// (with file, line and column), and for a folder without a single pair. A calibration file (YAML) holds what differs
-/// from the calibration of the format; what it does not name stays. If none is given, a calibration.yaml in the folder
-/// is read. Throws InputError for its mistakes, all at once.
-RgbdListing listRgbdFolder(const std::filesystem::path& folder, const std::string& calibration_file = {});
-
-/// TUM: two images are a pair if their stamps are at most this apart, as in the benchmark's associate.py.
-inline constexpr double kPairedWithin_s = 0.02;
 /// The frame rate of recordings that number their frames instead of giving their times: 7-Scenes, ICL-NUIM.
 inline constexpr double kNumberedFrames_Hz = 30.0;
 

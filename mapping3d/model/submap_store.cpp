@@ -12,9 +12,9 @@ namespace {
 using common::Pose3;
 using common::Submap3d;
 
-/// Depth images have far more pixels than a map needs points: every second pixel of a row and of a column makes
-/// one.
-constexpr int kPixelStep = 2;
+/// Depth images have far more pixels than a map with cubes of 2 cm needs points: every second pixel of a row and of a
+/// column makes one. Smaller cubes need all of them.
+int pixelStep(double cube_m) { return cube_m < SubmapConfig().cube_m ? 1 : 2; }
 /// Every third frame makes points; all frames change the occupancy.
 constexpr std::uint64_t kFrameStep = 3;
 /// Key scans are up to a metre apart, and over some ten metres the 2D map drifts by no more than a voxel.
@@ -60,7 +60,8 @@ void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans)
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
   if (growing_->frames++ % kFrameStep == 0 || placed.is_key_frame)
-    growing_->points.add(surfacePoints(placed.still, kPixelStep, config_.point_range_m, noise_), T_submap_camera);
+    growing_->points.add(surfacePoints(placed.still, pixelStep(config_.cube_m), config_.point_range_m, noise_),
+                         T_submap_camera);
 }
 
 void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans) {

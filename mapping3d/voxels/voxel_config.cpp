@@ -15,7 +15,7 @@ constexpr double kRounding = 1e-9;
 }  // namespace
 
 void VoxelConfig::describe(common::config::Fields& fields) {
-  fields("resolution_m", resolution_m, {0.01, 1.0}, "Side of a voxel.");
+  fields("resolution_m", resolution_m, {0.005, 1.0}, "Side of a voxel.");
 }
 
 std::vector<common::Problem> VoxelConfig::validate() const {

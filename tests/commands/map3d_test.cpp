@@ -2,14 +2,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/hash.hpp"
+#include "common/image_decoder.hpp"
+#include "common/png_encoder.hpp"
 #include "interfaces/clouds/point_cloud.hpp"
 #include "interfaces/files/archive.hpp"
 #include "interfaces/files/octomap.hpp"
@@ -102,7 +110,8 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   if (!frames) return;
   const fs::path& some = *frames;
   fs::resize_file(some / "frame-000010.depth.png", 5'000);
-  const ProgramEnd end = runSwiftlet({"map3d", some.string(), "--out", path("out"), "--mesh", "--json"});
+  const ProgramEnd end =
+      runSwiftlet({"map3d", some.string(), "--out", path("out"), "--mesh", path("out/mesh.ply"), "--json"});
   ASSERT_EQ(end.exit_code, 0) << describe(end);
   const nlohmann::json figures = nlohmann::json::parse(end.out);
   EXPECT_EQ(figures.at("format"), "7-Scenes");
@@ -113,7 +122,113 @@ TEST_F(Map3d, MapsARecordedFolderAndSaysWhatItSkipped) {
   EXPECT_EQ(interfaces::readTum(path("out/trajectory.tum")).size(), 19u);
   EXPECT_GT(fs::file_size(path("out/cloud.ply")), 100'000u);
   EXPECT_GT(interfaces::readCloud(path("out/mesh.ply")).points.size(), 1'000u) << "the vertices; faces are left out";
+  EXPECT_GT(figures.at("mesh_triangles"), 2'000);
   EXPECT_THAT(readText(path("out/report.html")), HasSubstr("<title>3D map of some"));
+}
+
+/// A shelf 0.35 m from the camera, with boards across and a back 0.1 m behind their edges; x right, y down, z along the
+/// view. It has no ends.
+constexpr double kEdges_m = 0.35, kBack_m = 0.45;
+constexpr std::array<std::array<double, 2>, 3> kBoards_m{{{-0.11, -0.09}, {-0.01, 0.01}, {0.09, 0.11}}};
+
+/// How far along the view a ray with this slope meets the shelf.
+double shelfDepth_m(double down) {
+  double depth_m = kBack_m;
+  for (const auto& [upper_m, lower_m] : kBoards_m)
+    for (const double edge_m : {upper_m, lower_m}) {
+      const double at_edges_m = down * kEdges_m;
+      if (at_edges_m >= upper_m && at_edges_m <= lower_m) depth_m = std::min(depth_m, kEdges_m);
+      const double at_m = edge_m / down;
+      if (at_m > kEdges_m && at_m < depth_m) depth_m = at_m;
+    }
+  return depth_m;
+}
+double shelfDistance_m(const Eigen::Vector3d& point_m) {
+  double least_m = std::abs(point_m.z() - kBack_m);
+  for (const auto& [upper_m, lower_m] : kBoards_m) {
+    const double dy = std::max({upper_m - point_m.y(), 0.0, point_m.y() - lower_m});
+    const double dz = std::max(kEdges_m - point_m.z(), 0.0);
+    const double inside_m = std::min({point_m.y() - upper_m, lower_m - point_m.y(), point_m.z() - kEdges_m});
+    least_m = std::min(least_m, inside_m > 0.0 ? inside_m : std::hypot(dy, dz));
+  }
+  return least_m;
+}
+
+/// Patches of 6 mm and of 25 mm, each of its own brightness.
+std::uint8_t shelfGrey(const Eigen::Vector3d& point_m) {
+  double sum = 0.0;
+  for (const double side_m : {0.006, 0.025}) {
+    const std::string patch = fmt::format("{} {} {}", std::floor(point_m.x() / side_m),
+                                          std::floor(point_m.y() / side_m), std::floor(point_m.z() / side_m));
+    sum += static_cast<double>(common::fnv1a(patch) % 120);
+  }
+  return static_cast<std::uint8_t>(10.0 + sum);
+}
+
+/// A recording in the format of Open3D, of a camera that moves along the shelf.
+void writeShelf(const fs::path& folder) {
+  fs::create_directories(folder / "color");
+  fs::create_directories(folder / "depth");
+  const auto put = [&](const std::string& name, const std::vector<std::uint8_t>& png) {
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  };
+  for (int i = 0; i < 8; ++i) {
+    common::Image color{320, 240, {}};
+    common::DepthCodes depth{320, 240, {}};
+    for (int v = 0; v < 240; ++v)
+      for (int u = 0; u < 320; ++u) {
+        const double right = (u - 159.5) / 262.5, down = (v - 119.5) / 262.5, depth_m = shelfDepth_m(down);
+        depth.codes.push_back(static_cast<std::uint16_t>(std::lround(1000.0 * depth_m)));
+        color.rgb.insert(color.rgb.end(), 3, shelfGrey({0.004 * i + right * depth_m, down * depth_m, depth_m}));
+      }
+    put(fmt::format("color/{:06}.png", i), common::encodePng(color));
+    put(fmt::format("depth/{:06}.png", i), common::encodePng(depth));
+  }
+  std::ofstream(folder / "camera_intrinsic.json")
+      << R"({"width": 320, "height": 240, "intrinsic_matrix": [262.5, 0, 0, 0, 262.5, 0, 159.5, 119.5, 1]})";
+}
+
+/// The mesh is within 5 mm of what the depths show.
+TEST_F(Map3d, AShelfAtFortyCentimetresIsMappedToFiveMillimetres) {
+  writeShelf(folder_ / "shelf");
+  const auto map = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"map3d", path("shelf"), "--out", path("out"), "--json"};
+    command.insert(command.end(), more.begin(), more.end());
+    const ProgramEnd end = runSwiftlet(command);
+    EXPECT_EQ(end.exit_code, 0) << describe(end);
+    return nlohmann::json::parse(end.out);
+  };
+  map({});
+  const std::size_t usual = interfaces::readCloud(path("out/cloud.ply")).points.size();
+  const nlohmann::json figures = map({"--resolution", "0.005", "--mesh", path("shelf.obj")});
+  EXPECT_EQ(figures.at("format"), "Open3D");
+  EXPECT_EQ(figures.at("lost_frames"), 0);
+  EXPECT_GT(interfaces::readCloud(path("out/cloud.ply")).points.size(), 8 * usual) << "16 times as many cubes";
+  EXPECT_EQ(interfaces::readOctree(path("out/map.bt")).map.resolution_m(), 0.005);
+  std::ifstream mesh(path("shelf.obj"));
+  std::size_t vertices = 0, triangles = 0, beyond = 0;
+  for (std::string line; std::getline(mesh, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+    words >> kind >> point_m.x() >> point_m.y() >> point_m.z();
+    triangles += kind == "f" ? 1 : 0;
+    if (kind != "v") continue;
+    ++vertices;
+    beyond += shelfDistance_m(point_m) > 0.005 ? 1 : 0;
+  }
+  EXPECT_EQ(triangles, figures.at("mesh_triangles"));
+  EXPECT_GT(vertices, 4'000u);
+  EXPECT_LT(static_cast<double>(beyond), 0.01 * static_cast<double>(vertices));
+}
+
+TEST_F(Map3d, AMeshOfAnotherKindIsRefusedBeforeAnythingIsMapped) {
+  writeShelf(folder_ / "shelf");
+  const ProgramEnd end = runSwiftlet({"map3d", path("shelf"), "--out", path("out"), "--mesh", path("shelf.stl")});
+  EXPECT_EQ(end.exit_code, 2) << describe(end);
+  EXPECT_THAT(end.err, HasSubstr("shelf.stl: --mesh: is not named .ply or .obj"));
+  EXPECT_FALSE(fs::exists(path("out")));
 }
 
 /// The mean of the points, and of the occupied voxels: they tell one frame from another.

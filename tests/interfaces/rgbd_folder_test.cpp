@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/png_encoder.hpp"
 #include "common/random.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "tests/support/problem_matchers.hpp"
 #include "tests/support/scratch.hpp"
@@ -198,7 +199,7 @@ TEST_F(RgbdFolders, ACalibrationIsReadOverThatOfTheFormat) {
 
 TEST_F(RgbdFolders, NamesTheLineOfAListThatCannotBeRead) {
   const auto problems = [&] { return test_support::problemsOf([&] { open(); }); };
-  EXPECT_THAT(problems(), HasProblem("rgbd.unknown-format"));
+  EXPECT_THAT(problems(), HasProblem("rgbd.no-images")) << "folders of images without any";
   write("depth.txt", "1.0 depth/1.png\n");
   write("rgb.txt", "# color\n1.0 rgb/1.png\nsoon rgb/2.png\n");
   EXPECT_THAT(problems(), HasProblem("text.not-a-time", "rgb.txt:3:1: stamp"));

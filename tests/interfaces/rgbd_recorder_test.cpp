@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/random.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "interfaces/rgbd/rgbd_recorder.hpp"
 #include "tests/support/problem_matchers.hpp"

@@ -6,6 +6,7 @@
 
 #include "evaluation/trajectory_metrics.hpp"
 #include "interfaces/files/archive.hpp"
+#include "interfaces/rgbd/list_rgbd.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 #include "mapping3d/odometry/rgbd_odometry.hpp"
 #include "tests/support/datasets.hpp"
