@@ -129,9 +129,10 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
 
   measureHeight(outcome, T_odom_body, now);
 
-  const MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
+  MapStep map = map_.add({outcome.scan, T_odom_bodyAt(outcome.scan), step_covariance, outcome.matched}, now);
   if (outcome.matched) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
+  outcome.gone = std::move(map.gone);
   poses_.scanned(outcome.scan.stamp, map.at_key, T_odom_bodyAt(outcome.scan));
   outcome.drift_m = uncertainty_.add(odometry, outcome.matched, T_odom_body, map);
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid(),

@@ -13,6 +13,7 @@
 #include "common/dynamic_obstacle.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -21,6 +22,12 @@ struct MayGo {
   const char* who = "";  ///< "a person".
   bool came = true;      ///< It was not there before; else it has only the size of a person.
 };
+
+/// Whether a look at the target was one past what stands there: it counts no longer once that has gone.
+inline bool isLookPast(const planning::ExplorationAttempt& attempt, const Eigen::Vector2d& place_map_m) {
+  constexpr double kPast_m = 2.0;  // The shadow of a person at 1 m is three times as wide 2 m behind.
+  return (attempt.target_map_m - place_map_m).norm() < kPast_m;
+}
 
 /// Remembers where people went who are not tracked any more: who stands still is soon part of the map. Not thread-safe.
 class WhoMayGo {

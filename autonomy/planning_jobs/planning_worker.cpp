@@ -1,7 +1,11 @@
 #include "autonomy/planning_jobs/planning_worker.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "common/segment.hpp"
 #include "planning/exploration/held_path.hpp"
@@ -19,8 +23,8 @@ constexpr double kLowerDetour_m = 10.0;
 constexpr double kWorthWaiting_m2 = 1.0;
 /// As much farther off people keep the planner (DynamicObstacles::kKeepOut_m), with a cell.
 constexpr double kKeptOff_m = 0.30;
-/// Views of what is this near to something that may go were views past it.
-constexpr double kPast_m = 2.0;
+/// A place this near to a frontier from which it is approached: the hull keeps off what is unknown.
+constexpr double kBeforeFrontier_m = 1.0;
 
 /// The first place of the path where the vehicle cannot be.
 std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const planning::Path& path) {
@@ -32,6 +36,13 @@ std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const p
       if (const Eigen::Vector2d at = from + (to - from) * k / steps; isLethalAt(map, at)) return at;
   }
   return std::nullopt;
+}
+
+bool isOpen(const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }
+
+bool shareCells(const common::Frontier& a, const common::Frontier& b) {
+  return std::any_of(a.cells.begin(), a.cells.end(),
+                     [&](common::CellIndex cell) { return std::count(b.cells.begin(), b.cells.end(), cell) > 0; });
 }
 
 /// Whether what stands at the second place can be looked at from the first one, not only past an edge.
@@ -186,20 +197,39 @@ void PlanningWorker::findBlockage(const PlanningRequest& request, planning::Expl
   const planning::CostField reached = rememberEdge(here);
   const std::vector<MayGo> things = clear(request, layers);
   std::erase_if(input.attempts, [&](const planning::ExplorationAttempt& attempt) {
-    return std::any_of(things.begin(), things.end(), [&](const MayGo& thing) {
-      return (attempt.target_map_m - thing.disc.center_map_m).norm() < kPast_m;
-    });
+    return std::any_of(things.begin(), things.end(),
+                       [&](const MayGo& thing) { return isLookPast(attempt, thing.disc.center_map_m); });
   });
   input.cost_map = std::make_shared<const planning::CostMap>(cleared_);
   input.current.reset();
-  const planning::ExplorationResult behind = planning::explore(input, explorer_);
+  planning::ExplorationResult behind = planning::explore(input, explorer_);
   if (behind.next) answer.blockage = blockageOf(*behind.next, here, things);
-  if (answer.blockage)
-    answer.blockage->frontiers = static_cast<int>(std::count_if(
-        behind.frontiers.begin(), behind.frontiers.end(),
-        [](const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }));
-  else
+  if (!answer.blockage) {
     answer.gap_map_m = gapBefore(reached);
+    return;
+  }
+  std::erase_if(behind.frontiers, std::not_fn(isOpen));
+  tellBlocked(std::move(behind.frontiers), here, things, answer);
+}
+
+/// The frontiers that are open only without what may go replace those of the map that they are part of, each with who
+/// is in the way; the blockage names them all.
+void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eigen::Vector2d& here,
+                                 const std::vector<MayGo>& things, PlanningAnswer& answer) {
+  Blockage& blockage = *answer.blockage;
+  blockage.frontiers = static_cast<int>(behind.size());
+  const std::string first = blockage.who;
+  std::vector<common::Frontier>& frontiers = answer.exploration->frontiers;
+  for (common::Frontier& frontier : behind) {
+    const auto before = goalPlace(cleared_, {frontier.centroid_map_m, 0.0, kBeforeFrontier_m});
+    const auto own = before ? blockageTo(*before, here, things) : std::nullopt;
+    const std::string& who = own ? own->who : first;
+    if (blockage.who.find(who) == std::string::npos) blockage.who += " and " + who;
+    frontier.reason = common::FrontierReason::kBlocked;
+    frontier.explanation = fmt::format("{}: {} is in the way", toString(frontier.reason), who);
+    std::erase_if(frontiers, [&](const common::Frontier& known) { return shareCells(known, frontier); });
+  }
+  frontiers.insert(frontiers.begin(), std::make_move_iterator(behind.begin()), std::make_move_iterator(behind.end()));
 }
 
 std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,

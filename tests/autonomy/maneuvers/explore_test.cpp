@@ -153,6 +153,36 @@ TEST_F(ExploreManeuver, WhatIsBlockedWhenTheChargeIsNeededIsIncomplete) {
   EXPECT_EQ(executor_.status().reason.substr(0, 36), "incomplete, 1 blocked by a person at");
 }
 
+TEST_F(ExploreManeuver, WhatIsBehindSomebodyIsBlockedAndNotUnreachable) {
+  buildPassage();
+  discs_ = {personInThePassage()};
+  want(common::ExploreIntent{});
+  run(2.0);
+  const auto blocked = [this] {
+    const auto& frontiers = *executor_.desk().frontiers();
+    return std::count_if(frontiers.begin(), frontiers.end(), [](const common::Frontier& frontier) {
+      return frontier.reason == common::FrontierReason::kBlocked;
+    });
+  };
+  EXPECT_EQ(blocked(), 1);
+  spare_s_ = 0.0;
+  EXPECT_EQ(runToTheEnd(30.0), IntentState::kFailed);
+  EXPECT_EQ(timesSaid("frontier of 0.95 m at"), 1);
+  EXPECT_EQ(reasonOf("frontier of 0.95 m at").substr(0, 21), "blocked: a person at ");
+}
+
+/// He stood in the view of the door: three looks past him say nothing of what is behind it.
+TEST_F(ExploreManeuver, LooksPastSomebodyCountNoLongerOnceHeHasGone) {
+  buildPassage();
+  discs_ = {personInThePassage()};
+  want(common::ExploreIntent{});
+  run(20.0);
+  ASSERT_EQ(executor_.status().reason.substr(0, 22), "waiting: incomplete, 1");
+  discs_.clear();
+  EXPECT_EQ(runToTheEnd(60.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(looks(), 3) << "from where he stood no longer in the way";
+}
+
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
   build(true);
   want(common::ExploreIntent{});
