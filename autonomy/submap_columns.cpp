@@ -59,15 +59,12 @@ bool isSame(const common::OccupancyGrid& a, const common::OccupancyGrid& b, cons
 
 void SubmapColumns::setVoxels(const std::shared_ptr<const VoxelMap>& voxels) {
   if (voxels_ == voxels) return;
-  auto forgotten = std::move(forgotten_);
+  const auto forgotten = std::move(forgotten_);
   *this = {};
   voxels_ = voxels;
   layers_ = layersOf(*voxels);
-  std::erase_if(forgotten, [&](auto& entry) {
-    const std::int8_t evidence = voxels->evidence(entry.first);
-    return evidence > std::exchange(entry.second, std::min(entry.second, evidence));
-  });
-  forgotten_ = std::move(forgotten);
+  for (const auto& [voxel, least] : forgotten)
+    if (const std::int8_t evidence = voxels->evidence(voxel); evidence <= least) forgotten_.emplace(voxel, evidence);
 }
 
 void SubmapColumns::forget(const Eigen::Vector2d& place_m, double height_m) {

@@ -94,7 +94,7 @@ class IsPersonNear final : public Condition {
   tree::Input<double> distance_m_;
 };
 
-/// Explore has left no frontier open.
+/// Explore has left no frontier open, nor blocked for a time.
 class IsExplored final : public Condition {
  public:
   using Condition::Condition;

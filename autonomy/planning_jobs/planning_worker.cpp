@@ -25,6 +25,9 @@ constexpr double kWorthWaiting_m2 = 1.0;
 constexpr double kKeptOff_m = 0.30;
 /// A place this near to a frontier from which it is approached: the hull keeps off what is unknown.
 constexpr double kBeforeFrontier_m = 1.0;
+/// Paths that meet the same person from two sides are blocked this near to each other: the width of the disc around
+/// him.
+constexpr double kSamePerson_m = 1.0;
 
 /// The first place of the path where the vehicle cannot be.
 std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const planning::Path& path) {
@@ -216,19 +219,21 @@ void PlanningWorker::findBlockage(const PlanningRequest& request, planning::Expl
 /// is in the way; the blockage names them all.
 void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eigen::Vector2d& here,
                                  const std::vector<MayGo>& things, PlanningAnswer& answer) {
-  Blockage& blockage = *answer.blockage;
-  blockage.frontiers = static_cast<int>(behind.size());
-  const std::string first = blockage.who;
+  std::vector<Blockage> told{*answer.blockage};
   std::vector<common::Frontier>& frontiers = answer.exploration->frontiers;
   for (common::Frontier& frontier : behind) {
     const auto before = goalPlace(cleared_, {frontier.centroid_map_m, 0.0, kBeforeFrontier_m});
     const auto own = before ? blockageTo(*before, here, things) : std::nullopt;
-    const std::string& who = own ? own->who : first;
-    if (blockage.who.find(who) == std::string::npos) blockage.who += " and " + who;
+    const auto known = std::find_if(told.begin(), told.end(), [&](const Blockage& one) {
+      return !own || (own->place_map_m - one.place_map_m).norm() < kSamePerson_m;
+    });
+    const std::string who = known == told.end() ? told.emplace_back(*own).who : known->who;
     frontier.reason = common::FrontierReason::kBlocked;
     frontier.explanation = fmt::format("{}: {} is in the way", toString(frontier.reason), who);
-    std::erase_if(frontiers, [&](const common::Frontier& known) { return shareCells(known, frontier); });
+    std::erase_if(frontiers, [&](const common::Frontier& one) { return shareCells(one, frontier); });
   }
+  answer.blockage->frontiers = static_cast<int>(behind.size());
+  for (std::size_t i = 1; i < told.size(); ++i) answer.blockage->who += " and " + told[i].who;
   frontiers.insert(frontiers.begin(), std::make_move_iterator(behind.begin()), std::make_move_iterator(behind.end()));
 }
 

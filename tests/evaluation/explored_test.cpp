@@ -90,8 +90,10 @@ TEST(Explored, EachExplorationThatSucceedsIsRecordedOnceWithTheMapOfThatMoment) 
     recorder.world(layers.world());
     return layers.map.grid;
   };
+  common::ExploreIntent explore;
+  explore.clearance_m = 0.2;
   const auto intent = [&](std::uint64_t id, common::IntentState state) {
-    recorder.intent({id, common::ExploreIntent{.clearance_m = 0.2}}, {id, state, "", false, false});
+    recorder.intent({id, explore}, {id, state, "", false, false});
   };
   const auto first = map();
   intent(1, common::IntentState::kRunning);
