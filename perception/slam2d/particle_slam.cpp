@@ -154,8 +154,16 @@ std::vector<GoneColumn> ParticleSlam::Impl::forget(const ProjectedScan& scan) {
   passed_at = scan.stamp;
   passed.draw(thinForDrawing(scan, config.grid), best().T_map_body * T_anchor_body);
   std::vector<GoneColumn> gone = passed.takeGone();
-  for (Particle& particle : particles)
-    for (const GoneColumn& column : gone) particle.map.forget(particle.map.cellAt(column.place_map_m));
+  if (gone.empty()) return gone;
+  const common::OccupancyGrid seen = passed.atFlightHeight();
+  for (const GoneColumn& column : gone) {
+    const common::CellIndex at = seen.cellAt(column.place_map_m);
+    // A particle that is some millimetres elsewhere has drawn the same outline into the cells beside.
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+      for (int x = at.x - 1; x <= at.x + 1; ++x)
+        if (!common::occupancy::isOccupied(seen.at({x, y})))
+          for (Particle& particle : particles) particle.map.forget({x, y});
+  }
   return gone;
 }
 
