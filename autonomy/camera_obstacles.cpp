@@ -48,7 +48,7 @@ void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& la
   const std::vector<std::size_t> order = nearestFirst(submaps, body_map_m.head<2>());
   unread_ = false;
   forgetGone(submaps);
-  readColumns(submaps, order);
+  readColumns(order);
   findGone(submaps, order);
   overlay();
 }
@@ -64,7 +64,7 @@ void CameraObstacles::forgetGone(const std::vector<PlacedSubmap>& submaps) {
 }
 
 /// Of submaps that are new, have grown, or were read for another height.
-void CameraObstacles::readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order) {
+void CameraObstacles::readColumns(const std::vector<std::size_t>& order) {
   int left = kBlocksPerUpdate;
   for (const std::size_t i : order) {
     if (columns_[i].height_m() == height_m_) continue;

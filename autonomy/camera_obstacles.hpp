@@ -40,7 +40,7 @@ class CameraObstacles {
   std::vector<Eigen::Vector2f> pointsNear_level_m(const common::Pose2& T_map_body, double range_m) const;
 
  private:
-  void readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order);
+  void readColumns(const std::vector<std::size_t>& order);
   void forgetGone(const std::vector<PlacedSubmap>& submaps);
   void findGone(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order);
   void overlay();
