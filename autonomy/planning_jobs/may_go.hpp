@@ -23,11 +23,8 @@ struct MayGo {
   bool came = true;      ///< It was not there before; else it has only the size of a person.
 };
 
-/// Whether a look at the target was one past what stands there: it counts no longer once that has gone.
-inline bool isLookPast(const planning::ExplorationAttempt& attempt, const Eigen::Vector2d& place_map_m) {
-  constexpr double kPast_m = 2.0;  // The shadow of a person at 1 m is three times as wide 2 m behind.
-  return (attempt.target_map_m - place_map_m).norm() < kPast_m;
-}
+/// Whether a look at its target was one past what stands at the place: it counts no longer once that has gone.
+bool isLookPast(const planning::ExplorationAttempt& attempt, const Eigen::Vector2d& place_map_m);
 
 /// Remembers where people went who are not tracked any more: who stands still is soon part of the map. Not thread-safe.
 class WhoMayGo {
