@@ -43,6 +43,13 @@ std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const p
 
 bool isOpen(const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }
 
+/// Whether what stands there was not there before; somebody who is tracked was not.
+bool cameThere(const std::vector<MayGo>& things, const Eigen::Vector2d& place_map_m) {
+  const auto thing = std::find_if(things.begin(), things.end(),
+                                  [&](const MayGo& one) { return one.disc.center_map_m == place_map_m; });
+  return thing == things.end() || thing->came;
+}
+
 bool shareCells(const common::Frontier& a, const common::Frontier& b) {
   return std::any_of(a.cells.begin(), a.cells.end(),
                      [&](common::CellIndex cell) { return std::count(b.cells.begin(), b.cells.end(), cell) > 0; });
@@ -207,23 +214,24 @@ void PlanningWorker::findBlockage(const PlanningRequest& request, planning::Expl
   input.current.reset();
   planning::ExplorationResult behind = planning::explore(input, explorer_);
   if (behind.next) answer.blockage = blockageOf(*behind.next, here, things);
-  if (!answer.blockage) {
-    answer.gap_map_m = gapBefore(reached);
-    return;
-  }
   std::erase_if(behind.frontiers, std::not_fn(isOpen));
   tellBlocked(std::move(behind.frontiers), here, things, answer);
+  if (!answer.blockage) answer.gap_map_m = gapBefore(reached);
 }
 
 /// The frontiers that are open only without what may go replace those of the map that they are part of, each with who
-/// is in the way; the blockage names them all.
+/// is in the way; the blockage names them all. What is looked at past somebody may have to be reached through him.
 void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eigen::Vector2d& here,
                                  const std::vector<MayGo>& things, PlanningAnswer& answer) {
-  std::vector<Blockage> told{*answer.blockage};
+  std::vector<Blockage> told;
+  if (answer.blockage) told.push_back(*answer.blockage);
+  std::vector<common::Frontier> blocked;
   std::vector<common::Frontier>& frontiers = answer.exploration->frontiers;
   for (common::Frontier& frontier : behind) {
     const auto before = goalPlace(cleared_, {frontier.centroid_map_m, 0.0, kBeforeFrontier_m});
     const auto own = before ? blockageTo(*before, here, things) : std::nullopt;
+    // A crate is waited for only where enough is expected behind it (blockageOf).
+    if (told.empty() && (!own || !cameThere(things, own->place_map_m))) continue;
     const auto known = std::find_if(told.begin(), told.end(), [&](const Blockage& one) {
       return !own || (own->place_map_m - one.place_map_m).norm() < kSamePerson_m;
     });
@@ -231,10 +239,13 @@ void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eig
     frontier.reason = common::FrontierReason::kBlocked;
     frontier.explanation = fmt::format("{}: {} is in the way", toString(frontier.reason), who);
     std::erase_if(frontiers, [&](const common::Frontier& one) { return shareCells(one, frontier); });
+    blocked.push_back(std::move(frontier));
   }
-  answer.blockage->frontiers = static_cast<int>(behind.size());
+  if (told.empty()) return;
+  answer.blockage = told.front();
+  answer.blockage->frontiers = static_cast<int>(blocked.size());
   for (std::size_t i = 1; i < told.size(); ++i) answer.blockage->who += " and " + told[i].who;
-  frontiers.insert(frontiers.begin(), std::make_move_iterator(behind.begin()), std::make_move_iterator(behind.end()));
+  frontiers.insert(frontiers.begin(), std::make_move_iterator(blocked.begin()), std::make_move_iterator(blocked.end()));
 }
 
 std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,

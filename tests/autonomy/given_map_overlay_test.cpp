@@ -105,13 +105,13 @@ TEST_F(GivenMapOverlayStory, WhatBeamsHavePassedForTwoSecondsIsGone) {
   overlay_.emplace(&given_, log_);
   perception::SlicedMap map{perception::GridDrawingConfig{}};
   double now_s = 0.0;
-  const auto look = [&](float range_m, double duration_s) {
+  const auto look = [&](float range_m, double duration_s, float tilt_m = 0.0F) {
     for (double at_s = 0.0; at_s < duration_s; at_s += 0.25) {
       perception::DrawnScan scan;
       scan.stamp = common::Time::fromSeconds(now_s += 0.25);
       scan.body_height_m = 1.0;
       for (float angle = -0.1F; angle < 0.1F; angle += 0.005F)
-        scan.hits_level_m.emplace_back(range_m * std::cos(angle), range_m * std::sin(angle), 0.0F);
+        scan.hits_level_m.emplace_back(range_m * std::cos(angle), range_m * std::sin(angle), tilt_m);
       map.draw(scan, {3.0, 2.0, 0.0});
     }
     flown_ = map.atFlightHeight();
@@ -119,7 +119,7 @@ TEST_F(GivenMapOverlayStory, WhatBeamsHavePassedForTwoSecondsIsGone) {
   };
   step(Pose2{});
   EXPECT_TRUE(isOccupied(at(Pose2{}, 5.0, 2.0)));
-  look(2.5F, 10.0);
+  for (const float tilt_m : {0.0F, 0.2F, -0.2F, 0.1F, -0.1F, 0.0F}) look(2.5F, 2.0, tilt_m);
   EXPECT_TRUE(isFree(at(Pose2{}, 5.0, 2.0)));
   EXPECT_TRUE(isOccupied(at(Pose2{}, 5.49, 2.02)));
   look(3.4F, 1.5);

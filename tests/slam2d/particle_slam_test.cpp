@@ -125,10 +125,12 @@ class ParticlesAndAPerson : public testing::Test {
     laser_.rate_hz = 4.0;
     laser_.sweep_s = 0.0;
   }
-  void look(const test::PlanarWorld& world, double duration_s) {
-    const auto at = [&](common::Time) { return common::lifted(Pose2{}, height_m_); };
+  void look(const test::PlanarWorld& world, double duration_s, double tilt_rad = 0.0) {
     for (int i = 0; i < static_cast<int>(duration_s * laser_.rate_hz); ++i) {
       common::RandomStream random(5, "look", scans_);
+      common::Pose3 pose = common::lifted(Pose2{}, height_m_);
+      pose.rotation = common::expSO3({0.0, tilt_rad * std::sin(1.1 * i), 0.0});
+      const auto at = [&](common::Time) { return pose; };
       const auto stamp = common::Time::fromSeconds(static_cast<double>(scans_++) / laser_.rate_hz);
       slam_.addScan(project(test::sweep(world, laser_, at, stamp, random), laser_, at, {}), {},
                     Eigen::Vector3d(1e-6, 1e-6, 1e-7).asDiagonal());
@@ -152,7 +154,7 @@ class ParticlesAndAPerson : public testing::Test {
 
 /// Scans are taken in every 2 s of a hover, so that it took 24 s before.
 TEST_F(ParticlesAndAPerson, WhatBeamsHavePassedForTwoSecondsIsGone) {
-  look(with_person_, 12.0);
+  look(with_person_, 12.0, 0.1);
   ASSERT_TRUE(isOccupiedAround(1.4, 0.0, 0.3));
   look(room_, 1.5);
   EXPECT_TRUE(isOccupiedAround(1.4, 0.0, 0.3)) << "not at once: a return may be missing";
@@ -162,7 +164,7 @@ TEST_F(ParticlesAndAPerson, WhatBeamsHavePassedForTwoSecondsIsGone) {
 }
 
 TEST_F(ParticlesAndAPerson, BeamsAboveSomethingDoNotSayThatItIsGone) {
-  look(with_person_, 12.0);
+  look(with_person_, 12.0, 0.1);
   height_m_ = 1.2;
   look(room_, 4.0);
   EXPECT_TRUE(isOccupiedAround(1.4, 0.0, 0.3));

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <tuple>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/autonomy/maneuver_story.hpp"
@@ -173,19 +174,18 @@ TEST_F(ExploreManeuver, WhatIsBehindSomebodyIsBlockedAndNotUnreachable) {
 
 /// He stands in a door, and three looks past him show nothing more of what is behind it.
 TEST_F(ExploreManeuver, LooksPastSomebodyCountNoLongerOnceHeHasGone) {
-  grid_ = planning::test::room(160, 80);
-  fill(grid_, {{81, 0}, {160, 80}}, common::occupancy::kUnknown);
-  fill(grid_, {{80, 0}, {81, 30}}, kWallCell);
-  fill(grid_, {{80, 50}, {81, 80}}, kWallCell);
-  for (const int y : {31, 44}) fill(grid_, {{80, y}, {110, y + 5}}, kFreeCell);
-  fill(grid_, {{78, 37}, {83, 43}}, kWallCell);
+  build(true);
+  people_ = {{1, {5.0, 2.0}, 0.25, {0.3, 0.0}, true, {}}};
+  discs_ = {{{5.0, 2.0}, 0.5}};
   want(common::ExploreIntent{});
-  runUntil([this] { return executor_.status().reason.starts_with("waiting: incomplete"); }, 120.0);
-  ASSERT_EQ(looks(), 3) << executor_.status().reason;
-  fill(grid_, {{78, 37}, {83, 43}}, kFreeCell);
-  runUntil([this] { return looks() < 3; }, 45.0);
-  EXPECT_EQ(looks(), 0);
+  runUntil([this] { return executor_.status().reason.starts_with("waiting: incomplete"); }, 90.0);
+  ASSERT_THAT(executor_.status().reason, testing::StartsWith("waiting: incomplete, 1 blocked by a person at"));
+  run(20.0);
+  people_.clear();
+  discs_.clear();
+  const int viewpoints = executor_.desk().use().viewpoints;
   EXPECT_EQ(runToTheEnd(120.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_GE(executor_.desk().use().viewpoints, viewpoints + 3);
 }
 
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
