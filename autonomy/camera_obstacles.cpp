@@ -38,26 +38,35 @@ void CameraObstacles::update(const std::shared_ptr<const common::Map3dLayer>& la
   const bool same_map =
       layer_ == layer || (layer_ && layer && layer_->submaps == layer->submaps && layer_->keys == layer->keys);
   const bool same_height = height_m_ && std::abs(*height_m_ - height_m) <= kSameHeight_m;
-  if (grid_ && laser_grid_ == grid && same_map && same_height && !unread_) return;
+  if (grid_ && laser_grid_ == grid && same_map && same_height && !unread_ && gone_.empty()) return;
   laser_grid_ = grid_ = grid;
   layer_ = layer;
   cells_map_m_.clear();
-  if (!layer) return;
+  if (!layer) return gone_.clear();
   if (!same_height) height_m_ = height_m;
   const std::vector<PlacedSubmap> submaps = placedSubmaps(*layer);
   const std::vector<std::size_t> order = nearestFirst(submaps, body_map_m.head<2>());
   unread_ = false;
-  readColumns(submaps, order);
+  forgetGone(submaps);
+  readColumns(order);
   findGone(submaps, order);
   overlay();
 }
 
-/// Of submaps that are new, have grown, or were read for another height.
-void CameraObstacles::readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order) {
+void CameraObstacles::forgetGone(const std::vector<PlacedSubmap>& submaps) {
   columns_.resize(submaps.size());
+  for (std::size_t i = 0; i < submaps.size(); ++i) {
+    columns_[i].setVoxels(submaps[i].voxels);
+    for (const perception::GoneColumn& gone : gone_)
+      columns_[i].forget(submaps[i].T_submap_map * gone.place_map_m, gone.height_m);
+  }
+  gone_.clear();
+}
+
+/// Of submaps that are new, have grown, or were read for another height.
+void CameraObstacles::readColumns(const std::vector<std::size_t>& order) {
   int left = kBlocksPerUpdate;
   for (const std::size_t i : order) {
-    columns_[i].setVoxels(submaps[i].voxels);
     if (columns_[i].height_m() == height_m_) continue;
     if (left > 0)
       left -= columns_[i].read(*height_m_, half_hull_m_);

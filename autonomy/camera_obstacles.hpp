@@ -13,6 +13,7 @@
 #include "common/geometry.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "perception/slam2d/columns.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -27,6 +28,10 @@ class CameraObstacles {
   void update(const std::shared_ptr<const common::Map3dLayer>& layer,
               const std::shared_ptr<const common::OccupancyGrid>& grid, const Eigen::Vector3d& body_map_m);
 
+  /// What has gone by the map of the laser has gone from the submaps as well; see SubmapColumns::forget. From the next
+  /// update on.
+  void forget(const std::vector<perception::GoneColumn>& gone) { gone_.insert(gone_.end(), gone.begin(), gone.end()); }
+
   /// The grid of the last update with the obstacles; null before it.
   std::shared_ptr<const common::OccupancyGrid> grid() const { return grid_; }
   /// The centres of the cells that were added to it.
@@ -35,14 +40,16 @@ class CameraObstacles {
   std::vector<Eigen::Vector2f> pointsNear_level_m(const common::Pose2& T_map_body, double range_m) const;
 
  private:
-  void readColumns(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order);
+  void readColumns(const std::vector<std::size_t>& order);
+  void forgetGone(const std::vector<PlacedSubmap>& submaps);
   void findGone(const std::vector<PlacedSubmap>& submaps, const std::vector<std::size_t>& order);
   void overlay();
 
   double half_hull_m_;
-  std::optional<double> height_m_;      ///< For which columns are read.
-  bool unread_ = false;                 ///< Some columns are those of another height, or may have been vacated.
-  std::vector<SubmapColumns> columns_;  ///< Of each submap.
+  std::vector<perception::GoneColumn> gone_;  ///< Since the last update.
+  std::optional<double> height_m_;            ///< For which columns are read.
+  bool unread_ = false;                       ///< Some columns are those of another height, or may have been vacated.
+  std::vector<SubmapColumns> columns_;        ///< Of each submap.
   std::shared_ptr<const common::Map3dLayer> layer_;
   std::shared_ptr<const common::OccupancyGrid> laser_grid_, grid_;
   std::vector<Eigen::Vector2d> cells_map_m_;

@@ -137,9 +137,10 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   const bool placed = outcome.matched || by_stereo;
   const perception::ProjectedScan mapped =
       perception::withoutWalkers(people_.walkersAt(outcome.scan.stamp), outcome.T_map_body, outcome.scan);
-  const MapStep map = map_.add({mapped, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
+  MapStep map = map_.add({mapped, T_odom_bodyAt(outcome.scan), step_covariance, placed}, now);
   if (placed) outcome.T_map_body = map.T_map_body;
   outcome.at_key = map.at_key;
+  outcome.gone = std::move(map.gone);
   poses_.scanned(outcome.scan.stamp, map.at_key, T_odom_bodyAt(outcome.scan));
   outcome.drift_m = uncertainty_.add(odometry, outcome.matched, T_odom_body, map);
   people_.update(outcome.scan, outcome.T_map_body, map_.T_map_odom(), map_.grid(),

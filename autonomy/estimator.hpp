@@ -70,7 +70,8 @@ struct ScanOutcome {
   std::optional<common::KeyRelativePose> at_key;  ///< Pose of the body relative to a key scan of the map.
   /// nullopt if the scan did not measure the surface below.
   std::optional<control::RawHeight> raw_height;
-  double drift_m = 0.0;  ///< See DriftMonitor.
+  double drift_m = 0.0;                           ///< See DriftMonitor.
+  std::vector<perception::GoneColumn> gone = {};  ///< What has gone from the map with this scan.
 };
 
 /// The filter's data on a body in motion, beside its state.

@@ -73,6 +73,8 @@ void Navigator::react(const Percept& percept, const KeepOutZones& keep_out) {
          keep_out.edgesNear_level_m(outcome.T_map_body, kNear_m)});
     executor_.react(decision, seen.state);
     laser_points_ = pointsOf(outcome);
+    camera_obstacles_.forget(outcome.gone);
+    if (executor_.dip_m() > 0.0) lower_obstacles_.forget(outcome.gone);
   }
 }
 

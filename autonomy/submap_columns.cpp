@@ -19,6 +19,10 @@ constexpr double kMargin_m = 0.15;
 constexpr double kFloor_m = 0.10;
 /// A voxel counts with the evidence of two frames, in log odds: a single one may have met a mixed pixel.
 constexpr int kLeastEvidence = static_cast<int>(1.5 / VoxelMap::kLogOddsStep);
+/// A beam is this many voxels thick: its spot, and the errors of its height at a few metres.
+constexpr int kBeam_voxels = 1;
+/// What stands upright may have a hole of this many voxels, where a camera measured nothing.
+constexpr int kGap_voxels = 2;
 /// What the laser sees is in the grid already. The maps differ by up to this many cells, which must not narrow doors.
 constexpr int kNearLaser_cells = 2;
 
@@ -55,9 +59,38 @@ bool isSame(const common::OccupancyGrid& a, const common::OccupancyGrid& b, cons
 
 void SubmapColumns::setVoxels(const std::shared_ptr<const VoxelMap>& voxels) {
   if (voxels_ == voxels) return;
+  const auto forgotten = std::move(forgotten_);
   *this = {};
   voxels_ = voxels;
   layers_ = layersOf(*voxels);
+  for (const auto& [voxel, least] : forgotten)
+    if (const std::int8_t evidence = voxels->evidence(voxel); evidence <= least) forgotten_.emplace(voxel, evidence);
+}
+
+void SubmapColumns::forget(const Eigen::Vector2d& place_m, double height_m) {
+  const VoxelIndex middle = voxels_->voxelAt({place_m.x(), place_m.y(), height_m});
+  const std::size_t before = forgotten_.size();
+  for (int y = middle.y - kNearLaser_cells; y <= middle.y + kNearLaser_cells; ++y)
+    for (int x = middle.x - kNearLaser_cells; x <= middle.x + kNearLaser_cells; ++x)
+      for (int z = middle.z - kBeam_voxels; z <= middle.z + kBeam_voxels; ++z) forgetUpright({x, y, z});
+  if (forgotten_.size() > before) height_m_.reset();
+}
+
+/// The voxel and what is above and below it, up to the next gap.
+void SubmapColumns::forgetUpright(VoxelIndex voxel) {
+  if (!isOccupied(voxel, voxels_->evidence(voxel))) return;
+  for (const int step : {1, -1}) {
+    int gap = 0;
+    for (VoxelIndex at = voxel; gap <= kGap_voxels; at.z += step) {
+      const std::int8_t evidence = voxels_->evidence(at);
+      gap = evidence >= kLeastEvidence ? 0 : gap + 1;
+      if (gap == 0) forgotten_.insert({at, evidence});
+    }
+  }
+}
+
+bool SubmapColumns::isOccupied(VoxelIndex voxel, int evidence) const {
+  return evidence >= kLeastEvidence && !forgotten_.contains(voxel);
 }
 
 int SubmapColumns::read(double height_m, double half_hull_m) {
@@ -87,7 +120,7 @@ void SubmapColumns::addColumns(VoxelIndex block, int low, int high) {
     for (int x = first.x; x < first.x + VoxelBlock::kSide; ++x) {
       Column column{{x, y, first.z}};
       for (int z = bottom; z <= top; ++z)
-        if (content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))] >= kLeastEvidence)
+        if (isOccupied({x, y, z}, content.evidence[static_cast<std::size_t>(VoxelBlock::offsetOf({x, y, z}))]))
           column.occupied = static_cast<std::uint8_t>(column.occupied | 1U << (z - first.z));
       if (column.occupied != 0) all_.push_back(column);
     }

@@ -27,6 +27,9 @@ class SubmapColumns {
  public:
   /// Another submap, or one that has grown, is read from the start.
   void setVoxels(const std::shared_ptr<const common::VoxelMap>& voxels);
+  /// Something that the laser saw at that height has gone from that place of the submap. What stands upright through
+  /// the beams that passed there goes with it; a voxel comes back when the camera meets something in it again.
+  void forget(const Eigen::Vector2d& place_m, double height_m);
   /// The height of the body for which it was read; nullopt before.
   const std::optional<double>& height_m() const { return height_m_; }
   /// Reads the blocks around that height. Returns how many those were.
@@ -42,9 +45,13 @@ class SubmapColumns {
  private:
   void addColumns(common::VoxelIndex block, int low, int high);
   bool hasGone(const Column& column) const;
+  bool isOccupied(common::VoxelIndex voxel, int evidence) const;
+  void forgetUpright(common::VoxelIndex voxel);
 
   std::shared_ptr<const common::VoxelMap> voxels_;
   std::map<int, std::vector<common::VoxelIndex>> layers_;  ///< The blocks of the voxels by their z.
+  /// The evidence of voxels that were forgotten, and the least since: more is a new observation.
+  std::map<common::VoxelIndex, std::int8_t> forgotten_;
   std::optional<double> height_m_;
   std::vector<Column> all_, beside_laser_;
   std::shared_ptr<const common::OccupancyGrid> laser_grid_;  ///< Of `beside_laser_`; null before the first time.

@@ -94,7 +94,7 @@ class IsPersonNear final : public Condition {
   tree::Input<double> distance_m_;
 };
 
-/// Explore has left no frontier open.
+/// Explore has left no frontier open, nor blocked for a time.
 class IsExplored final : public Condition {
  public:
   using Condition::Condition;
@@ -242,17 +242,21 @@ std::string IsPersonNear::objection(const FlightTick& tick) const {
 tree::NodeManifest IsExplored::manifest() {
   return {.id = "IsExplored",
           .kind = NodeKind::kCondition,
-          .description = "Explore has left no frontier open: every remaining one has a reason.",
+          .description =
+              "Explore has left no frontier open, nor blocked for a time: every remaining one has another reason.",
           .ends = "at once"};
 }
 
 std::string IsExplored::objection(const FlightTick& tick) const {
   const common::MapLayer& map = *tick.flight.world->map;
   if (!(map.explored_area_m2 > 0.0)) return "nothing has been explored yet";
-  const auto open = std::count_if(map.frontiers->begin(), map.frontiers->end(), [](const common::Frontier& frontier) {
-    return frontier.reason == common::FrontierReason::kOpen;
-  });
-  return open == 0 ? std::string() : fmt::format("{} {} open", open, open == 1 ? "frontier is" : "frontiers are");
+  for (const common::FrontierReason reason : {common::FrontierReason::kOpen, common::FrontierReason::kBlocked}) {
+    const auto count = std::count_if(map.frontiers->begin(), map.frontiers->end(),
+                                     [&](const common::Frontier& frontier) { return frontier.reason == reason; });
+    if (count > 0)
+      return fmt::format("{} {} {}", count, count == 1 ? "frontier is" : "frontiers are", toString(reason));
+  }
+  return {};
 }
 
 tree::NodeManifest IsAt::manifest() {

@@ -18,6 +18,8 @@ void BehaviorRecorder::tick(const simulation::Truth& truth, const common::Pose3&
                             const common::Pose3& T_world_map) {
   const double elapsed_s = last_tick_ ? (truth.stamp - *last_tick_).seconds() : 0.0;
   last_tick_ = truth.stamp;
+  present_.height_world_m = truth.T_world_body.position_m.z();
+  present_.closed_doors = truth.closed_doors;
   if (!truth.airborne) return;
   keepOut(T_map_truth.position_m.head<2>());
   inspect(truth);
@@ -71,9 +73,13 @@ void BehaviorRecorder::follow(const simulation::Truth& truth, const common::Pose
 
 void BehaviorRecorder::intent(const common::Intent& intent, const common::IntentStatus& status) {
   const bool was_running = status_.id != status.id || status_.state == common::IntentState::kRunning;
-  const auto* survey = std::get_if<common::SurveyIntent>(&intent.kind);
-  if (survey != nullptr && status.id == intent.id && was_running && status.state == common::IntentState::kSucceeded)
-    record_.surveyed.push_back(survey->area);
+  if (status.id == intent.id && was_running && status.state == common::IntentState::kSucceeded) {
+    if (const auto* survey = std::get_if<common::SurveyIntent>(&intent.kind)) record_.surveyed.push_back(survey->area);
+    if (const auto* explore = std::get_if<common::ExploreIntent>(&intent.kind); explore != nullptr && present_.map) {
+      present_.asked = *explore;
+      record_.explored.push_back(present_);
+    }
+  }
   intent_ = intent;
   status_ = status;
 }
@@ -81,6 +87,8 @@ void BehaviorRecorder::intent(const common::Intent& intent, const common::Intent
 void BehaviorRecorder::world(const common::World& world) {
   followed_map_m_ = world.people->followed_map_m;
   record_.targets = world.targets;
+  present_.map = world.map->grid;
+  present_.keep_out = world.map->keep_out;
   if (zones_ == world.map->keep_out) return;
   zones_ = world.map->keep_out;
   std::erase_if(left_, [&](const common::Polygon& zone) {

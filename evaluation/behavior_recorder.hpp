@@ -1,5 +1,5 @@
 // Records, by the truth, how well the vehicle did what some behaviours promise: keeping out of zones, looking at the
-// point it inspects, seeing all of the area it surveys, and staying behind the person it follows.
+// point it inspects, seeing all of the area it surveys or explores, and staying behind the person it follows.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 
 #include "common/geometry.hpp"
 #include "common/intent.hpp"
+#include "common/occupancy_grid.hpp"
 #include "common/polygon.hpp"
 #include "common/world/targets_layer.hpp"
 #include "simulation/truth.hpp"
@@ -41,11 +42,21 @@ struct BehaviorRecord {
     static constexpr double kNear_m = 1.5, kFar_m = 3.0, kWrong_m = 1.0;
   };
 
+  /// What the map was when an exploration ended as a success, and where the vehicle and the doors truly were.
+  struct Explored {
+    common::ExploreIntent asked;
+    std::shared_ptr<const common::OccupancyGrid> map;  ///< Null before the first snapshot.
+    std::shared_ptr<const std::vector<common::Polygon>> keep_out;
+    double height_world_m = 0.0;
+    std::vector<simulation::Actor> closed_doors;
+  };
+
   /// Least distance of the true centre of the airborne vehicle from a keep-out zone, negative inside; from when it was
   /// first outside of that zone. nullopt without a zone.
   std::optional<double> keep_out_distance_m;
-  std::vector<View> inspecting;                         ///< At 10 Hz.
-  std::vector<common::Polygon> surveyed;                ///< The areas whose survey succeeded.
+  std::vector<View> inspecting;           ///< At 10 Hz.
+  std::vector<common::Polygon> surveyed;  ///< The areas whose survey succeeded.
+  std::vector<Explored> explored;
   std::vector<Follow> follows;                          ///< In order of time; empty if no person was followed.
   std::shared_ptr<const common::TargetsLayer> targets;  ///< The last; null before the first snapshot.
 };
@@ -68,6 +79,7 @@ class BehaviorRecorder {
   void follow(const simulation::Truth& truth, const common::Pose3& T_world_map, double elapsed_s);
 
   BehaviorRecord record_;
+  BehaviorRecord::Explored present_;  ///< If an exploration ended now.
   std::shared_ptr<const std::vector<common::Polygon>> zones_;
   std::vector<common::Polygon> left_;  ///< The zones that the vehicle has been outside of since they were made.
   common::Intent intent_;

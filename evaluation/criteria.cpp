@@ -40,6 +40,8 @@ bool isAsked(const Criterion& criterion, const Criteria& criteria, const FlightS
       return of_mission;
     case Criterion::Asked::kIfMeasured:
       return of_mission || measured;
+    case Criterion::Asked::kOfMeasured:
+      return measured;
     case Criterion::Asked::kAlways:
       return true;
     case Criterion::Asked::kOfUndone:

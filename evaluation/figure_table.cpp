@@ -281,6 +281,12 @@ Figures behaviorRows() {
           atLeast("survey_coverage_min", "share of the surveyed floor that was seen",
                   "Least share of the open floor of a surveyed area that the camera has seen.", kAlways),
           least("survey_coverage_min")),
+      row("explored_unseen_share",
+          atMost("explored_unseen_max", "share of the reachable area unseen when exploring was done",
+                 "Greatest share of the area that the hull could reach, by the truth, which was not in the map when "
+                 "`Explore` ended as a success; 1: no bound.",
+                 kOfMeasured, Bounds{0, 1}),
+          greatest("explored_unseen_share_max")),
       row("follow_share",
           atLeast("follow_share_min", "share of the time at the distance of following",
                   "Least share of the time of following, in each flight mode, with the person 1.5 to 3 m away.",

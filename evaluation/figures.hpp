@@ -49,9 +49,10 @@ enum class FigureGroup {
 struct Criterion {
   enum class Bound { kAtMost, kAtLeast };
   /// Of which flights it is asked: of those that did their mission, or of every one where the trial has no verdicts; of
-  /// these and of others that have the figure; of every one; of those that did not do their mission. Over all flights,
-  /// one that lacks the figure is ignored with kIfMeasured, and otherwise worse than any that has it.
-  enum class Asked { kOfMission, kIfMeasured, kAlways, kOfUndone };
+  /// these and of others that have the figure; of those that have the figure alone; of every one; of those that did not
+  /// do their mission. Over all flights, one that lacks the figure is ignored with kIfMeasured, and otherwise worse
+  /// than any that has it.
+  enum class Asked { kOfMission, kIfMeasured, kOfMeasured, kAlways, kOfUndone };
 
   const char* key = nullptr;       ///< In the trial file; null: the figure has no criterion.
   const char* label = nullptr;     ///< For people: "goal error, m".

@@ -50,14 +50,6 @@ void measureCollision(const FlightRecord& record, FlightScore& score) {
   score.glass_contacts = record.contact->truth.unseen_glass ? 1 : 0;
 }
 
-/// The flood was stopped by its bound and not by walls, so the coverable area has no end. This is checked before the
-/// free space is computed, which would take minutes in the open.
-bool isOpen(const simulation::RayCaster& rays, const simulation::FreeSpaceQuery& query) {
-  std::size_t cells = 0;
-  simulation::reachableSpace(rays, query).forEachCell([&](common::CellIndex, std::uint8_t cell) { cells += cell; });
-  return static_cast<double>(cells) * query.resolution_m * query.resolution_m >= query.max_area_m2;
-}
-
 void measureMap(const FlightRecord& record, const TrueWorld& world, FlightScore& score) {
   if (record.map == nullptr || record.estimate.horizontal_errors_m.empty()) return;
   const common::Pose2 T_world_map = common::planar(record.T_world_map);
@@ -71,11 +63,11 @@ void measureMap(const FlightRecord& record, const TrueWorld& world, FlightScore&
   query.resolution_m = record.map->resolution_m();
   query.max_area_m2 = world.reachable_area_max_m2;
   query.closed_doors = record.last_truth.closed_doors;
-  if (isOpen(*world.rays, query)) {
+  const simulation::FreeSpace free_space = simulation::freeSpace(*world.rays, query);
+  if (free_space.isOpen(query)) {
     score.coverage_problem = fmt::format("the world is not closed: the hull gets from the start to more than {:g} m2",
                                          world.reachable_area_max_m2);
   } else {
-    const simulation::FreeSpace free_space = simulation::freeSpace(*world.rays, query);
     score["coverage"] = coverage(*record.map, T_world_map, free_space);
     if (free_space.covered_area_m2 > 0) score["reachable_area_m2"] = free_space.covered_area_m2;
   }

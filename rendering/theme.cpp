@@ -52,6 +52,8 @@ Color frontierColor(common::FrontierReason reason, Scheme scheme) {
       return light ? rgb(0x5f6d7a) : rgb(0xc3ccd4);
     case common::FrontierReason::kUnreachable:
       return light ? rgb(0xcf4d06) : rgb(0xffc48c);
+    case common::FrontierReason::kBlocked:
+      return light ? rgb(0x2b8a3e) : rgb(0xb2f2bb);
     case common::FrontierReason::kOutOfBounds:
       return light ? rgb(0x9c36b5) : rgb(0xecb8fb);
     case common::FrontierReason::kBlacklisted:

@@ -109,8 +109,9 @@ std::optional<double> pathLength_m(const Grid& cells, const Eigen::Vector2d& fro
 
 FreeSpace freeSpace(const RayCaster& rays, const FreeSpaceQuery& query) {
   FreeSpace space{reachableSpace(rays, query), Grid(query.resolution_m)};
-  space.covered = dilated(space.reachable, query.hull_radius_m);
   space.reachable_area_m2 = area_m2(space.reachable);
+  if (space.isOpen(query)) return space;
+  space.covered = dilated(space.reachable, query.hull_radius_m);
   space.covered_area_m2 = area_m2(space.covered);
   return space;
 }

@@ -30,6 +30,9 @@ struct FreeSpace {
   common::TiledGrid<std::uint8_t> covered;
   double reachable_area_m2 = 0.0;
   double covered_area_m2 = 0.0;
+
+  /// The flood was stopped by its bound and not by walls, so that what is covered has no end, and is not computed.
+  bool isOpen(const FreeSpaceQuery& query) const { return reachable_area_m2 >= query.max_area_m2; }
 };
 
 /// The cells that the centre of the hull can reach from the start, by a flood. All are 0 if the hull does not fit at

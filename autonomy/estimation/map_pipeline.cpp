@@ -25,11 +25,12 @@ MapStep MapPipeline::add(const MappedScan& mapped, Time now) {
   const Pose2 T_odom_body = planar(mapped.T_odom_body);
   MapStep step;
   if (mapped.matched) {
-    const auto update = slam_->addScan(mapped.scan, T_odom_body, covariance_since_map_);
+    auto update = slam_->addScan(mapped.scan, T_odom_body, covariance_since_map_);
     covariance_since_map_.setZero();
     T_odom_mapped_ = T_odom_body;
     step.T_map_body = update.T_map_body;
     step.known_key = update.known_key;
+    step.gone = std::move(update.gone);
     if (update.drawn) ++grid_version_;
     if (update.key_scan) ++keys_version_;
     submitTask(now);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -39,7 +40,8 @@ struct MapStep {
   /// Pose of the body relative to a key scan, for data that must move with the map; nullopt before the first scan in
   /// the map.
   std::optional<common::KeyRelativePose> at_key;
-  int known_key = -1;  ///< perception::SlamUpdate::known_key.
+  int known_key = -1;                             ///< perception::SlamUpdate::known_key.
+  std::vector<perception::GoneColumn> gone = {};  ///< perception::SlamUpdate::gone.
 };
 
 /// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.

@@ -46,6 +46,7 @@ class Explore final : public PathManeuver {
   void goOn(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state);
   Progress waitFor(const planning::ExplorationResult& result, const std::optional<Blockage>& blockage,
                    common::Time now);
+  bool forgetLooksPast(const Blockage& gone);
   Progress lookThrough(common::Time now);
   Progress explored(const planning::ExplorationResult& result, common::Time now);
   void tellLeft(common::Time now) const;
@@ -128,6 +129,13 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
   if (!answer.exploration) return Progress::running();
   const planning::ExplorationResult& result = *answer.exploration;
   reason_ = result.reason;
+  if (const auto was = patience_.blockage(); was && (result.next || !answer.blockage)) {
+    patience_.reset();
+    if (forgetLooksPast(*was) && !result.next) {
+      asked_.reset();
+      return Progress::running(reason_);
+    }
+  }
   if (result.next) {
     goOn(answer, now, state);
   } else if (!detour_.active()) {
@@ -167,6 +175,13 @@ Progress Explore::waitFor(const planning::ExplorationResult& result, const std::
   }
   patience_.failed(now, blockage);
   return Progress::running("waiting: " + reason_);
+}
+
+/// What was looked at past somebody was not seen; he has gone. True if there were such looks.
+bool Explore::forgetLooksPast(const Blockage& gone) {
+  return std::erase_if(setup_.memory.attempts, [&](const planning::ExplorationAttempt& attempt) {
+           return isLookPast(attempt, gone.place_map_m);
+         }) > 0;
 }
 
 /// Somebody in a door leaves a gap beside him, and so does what is left in the map of who has gone.

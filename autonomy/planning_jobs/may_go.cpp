@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -97,6 +99,13 @@ class StandingAlone {
 };
 
 }  // namespace
+
+bool isLookPast(const planning::ExplorationAttempt& attempt, const Eigen::Vector2d& place_map_m) {
+  // Past somebody in the middle of a door of 1.5 m; from 1 m away the shadow of a person is 1.5 m wide 2 m behind him.
+  constexpr double kAside_m = 0.75, kBehind_m = 2.0;
+  return (attempt.target_map_m - place_map_m).norm() < kBehind_m &&
+         common::segmentDistance(place_map_m, attempt.place_map_m, attempt.target_map_m) < kAside_m;
+}
 
 void WhoMayGo::remember(std::span<const common::DynamicObstacle> people, const planning::CostMap& map) {
   for (const common::DynamicObstacle& person : people) {

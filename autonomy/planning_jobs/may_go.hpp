@@ -13,6 +13,7 @@
 #include "common/dynamic_obstacle.hpp"
 #include "common/occupancy_grid.hpp"
 #include "planning/costs/cost_map.hpp"
+#include "planning/exploration/exploration.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -21,6 +22,9 @@ struct MayGo {
   const char* who = "";  ///< "a person".
   bool came = true;      ///< It was not there before; else it has only the size of a person.
 };
+
+/// Whether a look at its target was one past what stands at the place: it counts no longer once that has gone.
+bool isLookPast(const planning::ExplorationAttempt& attempt, const Eigen::Vector2d& place_map_m);
 
 /// Remembers where people went who are not tracked any more: who stands still is soon part of the map. Not thread-safe.
 class WhoMayGo {

@@ -1,7 +1,11 @@
 #include "autonomy/planning_jobs/planning_worker.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "common/segment.hpp"
 #include "planning/exploration/held_path.hpp"
@@ -19,8 +23,11 @@ constexpr double kLowerDetour_m = 10.0;
 constexpr double kWorthWaiting_m2 = 1.0;
 /// As much farther off people keep the planner (DynamicObstacles::kKeepOut_m), with a cell.
 constexpr double kKeptOff_m = 0.30;
-/// Views of what is this near to something that may go were views past it.
-constexpr double kPast_m = 2.0;
+/// A place this near to a frontier from which it is approached: the hull keeps off what is unknown.
+constexpr double kBeforeFrontier_m = 1.0;
+/// Paths that meet the same person from two sides are blocked this near to each other: the width of the disc around
+/// him.
+constexpr double kSamePerson_m = 1.0;
 
 /// The first place of the path where the vehicle cannot be.
 std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const planning::Path& path) {
@@ -32,6 +39,20 @@ std::optional<Eigen::Vector2d> firstLethal(const planning::CostMap& map, const p
       if (const Eigen::Vector2d at = from + (to - from) * k / steps; isLethalAt(map, at)) return at;
   }
   return std::nullopt;
+}
+
+bool isOpen(const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }
+
+/// Whether what stands there was not there before; somebody who is tracked was not.
+bool cameThere(const std::vector<MayGo>& things, const Eigen::Vector2d& place_map_m) {
+  const auto thing = std::find_if(things.begin(), things.end(),
+                                  [&](const MayGo& one) { return one.disc.center_map_m == place_map_m; });
+  return thing == things.end() || thing->came;
+}
+
+bool shareCells(const common::Frontier& a, const common::Frontier& b) {
+  return std::any_of(a.cells.begin(), a.cells.end(),
+                     [&](common::CellIndex cell) { return std::count(b.cells.begin(), b.cells.end(), cell) > 0; });
 }
 
 /// Whether what stands at the second place can be looked at from the first one, not only past an edge.
@@ -186,20 +207,45 @@ void PlanningWorker::findBlockage(const PlanningRequest& request, planning::Expl
   const planning::CostField reached = rememberEdge(here);
   const std::vector<MayGo> things = clear(request, layers);
   std::erase_if(input.attempts, [&](const planning::ExplorationAttempt& attempt) {
-    return std::any_of(things.begin(), things.end(), [&](const MayGo& thing) {
-      return (attempt.target_map_m - thing.disc.center_map_m).norm() < kPast_m;
-    });
+    return std::any_of(things.begin(), things.end(),
+                       [&](const MayGo& thing) { return isLookPast(attempt, thing.disc.center_map_m); });
   });
   input.cost_map = std::make_shared<const planning::CostMap>(cleared_);
   input.current.reset();
-  const planning::ExplorationResult behind = planning::explore(input, explorer_);
+  planning::ExplorationResult behind = planning::explore(input, explorer_);
   if (behind.next) answer.blockage = blockageOf(*behind.next, here, things);
-  if (answer.blockage)
-    answer.blockage->frontiers = static_cast<int>(std::count_if(
-        behind.frontiers.begin(), behind.frontiers.end(),
-        [](const common::Frontier& frontier) { return frontier.reason == common::FrontierReason::kOpen; }));
-  else
-    answer.gap_map_m = gapBefore(reached);
+  std::erase_if(behind.frontiers, std::not_fn(isOpen));
+  tellBlocked(std::move(behind.frontiers), here, things, answer);
+  if (!answer.blockage) answer.gap_map_m = gapBefore(reached);
+}
+
+/// The frontiers that are open only without what may go replace those of the map that they are part of, each with who
+/// is in the way; the blockage names them all. What is looked at past somebody may have to be reached through him.
+void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eigen::Vector2d& here,
+                                 const std::vector<MayGo>& things, PlanningAnswer& answer) {
+  std::vector<Blockage> told;
+  if (answer.blockage) told.push_back(*answer.blockage);
+  std::vector<common::Frontier> blocked;
+  std::vector<common::Frontier>& frontiers = answer.exploration->frontiers;
+  for (common::Frontier& frontier : behind) {
+    const auto before = goalPlace(cleared_, {frontier.centroid_map_m, 0.0, kBeforeFrontier_m});
+    const auto own = before ? blockageTo(*before, here, things) : std::nullopt;
+    // A crate is waited for only where enough is expected behind it (blockageOf).
+    if (told.empty() && (!own || !cameThere(things, own->place_map_m))) continue;
+    const auto known = std::find_if(told.begin(), told.end(), [&](const Blockage& one) {
+      return !own || (own->place_map_m - one.place_map_m).norm() < kSamePerson_m;
+    });
+    const std::string who = known == told.end() ? told.emplace_back(*own).who : known->who;
+    frontier.reason = common::FrontierReason::kBlocked;
+    frontier.explanation = fmt::format("{}: {} is in the way", toString(frontier.reason), who);
+    std::erase_if(frontiers, [&](const common::Frontier& one) { return shareCells(one, frontier); });
+    blocked.push_back(std::move(frontier));
+  }
+  if (told.empty()) return;
+  answer.blockage = told.front();
+  answer.blockage->frontiers = static_cast<int>(blocked.size());
+  for (std::size_t i = 1; i < told.size(); ++i) answer.blockage->who += " and " + told[i].who;
+  frontiers.insert(frontiers.begin(), std::make_move_iterator(blocked.begin()), std::make_move_iterator(blocked.end()));
 }
 
 std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,

@@ -28,8 +28,9 @@ struct DetourPlan {
 /// Something that may go is in the only way: without it there is one.
 struct Blockage {
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();  ///< Where it stands.
-  std::string who;                                        ///< With its place: "a person at (4.00, 2.00)".
-  int frontiers = 0;                                      ///< Of an exploration: how many are behind it.
+  /// With its place: "a person at (4.00, 2.00)"; of an exploration all that are in the way, this one first.
+  std::string who;
+  int frontiers = 0;  ///< Of an exploration: how many are behind it.
 };
 
 /// Names of the planner and the explorer, with the number of their results.
@@ -94,6 +95,8 @@ class PlanningWorker {
                     PlanningAnswer& answer);
   void findBlockage(const PlanningRequest& request, planning::ExplorationInput input,
                     const planning::CostLayers& layers, PlanningAnswer& answer);
+  void tellBlocked(std::vector<common::Frontier> behind, const Eigen::Vector2d& here, const std::vector<MayGo>& things,
+                   PlanningAnswer& answer);
   std::string named(const MayGo& thing) const;
   planning::CostField rememberEdge(const Eigen::Vector2d& position_map_m);
   std::optional<Eigen::Vector2d> gapBefore(const planning::CostField& reached) const;

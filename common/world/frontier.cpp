@@ -12,6 +12,8 @@ const char* toString(FrontierReason reason) {
       return "too small";
     case FrontierReason::kUnreachable:
       return "unreachable";
+    case FrontierReason::kBlocked:
+      return "blocked";
     case FrontierReason::kOutOfBounds:
       return "out of bounds";
     case FrontierReason::kBlacklisted:

@@ -12,13 +12,18 @@
 namespace swiftlet::common {
 
 /// Why a frontier is not (yet) explored.
+/// kBlocked: something that may go, such as a person, is in the only way, or in the view; it is come back to.
 /// kPositionUncertain: too few walls are around it to know the position there, or the position became uncertain on an
 /// earlier flight there.
-enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kOutOfBounds, kBlacklisted, kPositionUncertain };
+enum class FrontierReason { kOpen, kTooSmall, kUnreachable, kBlocked, kOutOfBounds, kBlacklisted, kPositionUncertain };
 /// All of them, in their order.
-inline constexpr std::array kFrontierReasons{FrontierReason::kOpen,        FrontierReason::kTooSmall,
-                                             FrontierReason::kUnreachable, FrontierReason::kOutOfBounds,
-                                             FrontierReason::kBlacklisted, FrontierReason::kPositionUncertain};
+inline constexpr std::array kFrontierReasons{FrontierReason::kOpen,
+                                             FrontierReason::kTooSmall,
+                                             FrontierReason::kUnreachable,
+                                             FrontierReason::kBlocked,
+                                             FrontierReason::kOutOfBounds,
+                                             FrontierReason::kBlacklisted,
+                                             FrontierReason::kPositionUncertain};
 const char* toString(FrontierReason reason);
 
 /// A connected run of free cells that touch unknown ones.

@@ -5,10 +5,19 @@
 #include <cstdint>
 #include <optional>
 
+#include <Eigen/Core>
+
 #include "common/tiled_grid.hpp"
 #include "common/time.hpp"
 
 namespace swiftlet::perception {
+
+/// A place of the map from which something has gone: beams at that height, over the take-off floor, have passed it for
+/// long enough.
+struct GoneColumn {
+  Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
+  double height_m = 0.0;
+};
 
 /// Heights are numbers of slices. Not thread-safe; a snapshot may go to another thread.
 class Columns {

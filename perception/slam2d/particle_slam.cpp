@@ -13,6 +13,7 @@
 #include "perception/slam2d/grid_update.hpp"
 #include "perception/slam2d/particle/ancestry_tree.hpp"
 #include "perception/slam2d/particle/map_match.hpp"
+#include "perception/slam2d/sliced_map.hpp"
 #include "perception/slam2d/surface_map.hpp"
 
 namespace swiftlet::perception {
@@ -39,6 +40,8 @@ constexpr double kNewsShare = 0.25;
 /// The particles are resampled when the effective ones are a smaller share of all (Grisetti, Stachniss and Burgard
 /// 2007).
 constexpr double kMinEffectiveShare = 0.5;
+/// Time between the scans that say what has gone: shorter than a scan stands for (SlicedMap), so that none is missed.
+constexpr double kPassed_s = 0.25;
 /// The map does not begin with a scan of fewer points.
 constexpr int kMinPoints = 30;
 
@@ -61,12 +64,13 @@ Pose2 sample(const Pose2& mean, const Eigen::Matrix3d& covariance, RandomStream&
 
 struct ParticleSlam::Impl {
   explicit Impl(const ParticleSlamConfig& config_in)
-      : config(config_in), published(common::makeOccupancyGrid(config_in.grid.resolution_m)) {}
+      : config(config_in), published(common::makeOccupancyGrid(config_in.grid.resolution_m)), passed(config_in.grid) {}
 
   void begin(const ProjectedScan& scan, const Pose2& T_odom_body);
   void follow(const Pose2& T_odom_body, const Eigen::Matrix3d& covariance_since_last);
   bool isDue(common::Time now) const;
   void update(const ProjectedScan& scan);
+  std::vector<GoneColumn> forget(const ProjectedScan& scan);
   void moveOn(Particle& particle, const MapMatch& match, RandomStream& random);
   void resample();
   const Particle& best() const;
@@ -79,6 +83,8 @@ struct ParticleSlam::Impl {
   std::vector<common::Time> stamps;  ///< Of the scans that were taken in.
   DrawingBoard board;
   common::OccupancyGrid published;
+  SlicedMap passed;  ///< Along the best trajectory; only what goes from it counts.
+  std::optional<common::Time> passed_at;
   std::optional<double> flight_height_m;
   SlamCounts counts;
 
@@ -141,6 +147,26 @@ void ParticleSlam::Impl::update(const ProjectedScan& scan) {
   resample();
 }
 
+/// Scans are taken in rarely, and a map of particles has one height: which beams passed at the height of what stood
+/// there is in neither. What has gone by the rule of SlicedMap has gone from the map of every particle.
+std::vector<GoneColumn> ParticleSlam::Impl::forget(const ProjectedScan& scan) {
+  if (passed_at && (scan.stamp - *passed_at).seconds() < kPassed_s) return {};
+  passed_at = scan.stamp;
+  passed.draw(thinForDrawing(scan, config.grid), best().T_map_body * T_anchor_body);
+  std::vector<GoneColumn> gone = passed.takeGone();
+  if (gone.empty()) return gone;
+  const common::OccupancyGrid seen = passed.atFlightHeight();
+  for (const GoneColumn& column : gone) {
+    const common::CellIndex at = seen.cellAt(column.place_map_m);
+    // A particle that is some millimetres elsewhere has drawn the same outline into the cells beside.
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+      for (int x = at.x - 1; x <= at.x + 1; ++x)
+        if (!common::occupancy::isOccupied(seen.at({x, y})))
+          for (Particle& particle : particles) particle.map.forget({x, y});
+  }
+  return gone;
+}
+
 void ParticleSlam::Impl::moveOn(Particle& particle, const MapMatch& match, RandomStream& random) {
   particle.T_map_body = sample(match.T_map_body, match.covariance, random);
   const double news = kNewsShare * match.log_likelihood;
@@ -198,7 +224,10 @@ SlamUpdate ParticleSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom_
     taken_in = self.isDue(scan.stamp);
     if (taken_in) self.update(scan);
   }
-  return {taken_in, taken_in, T_map_body()};
+  SlamUpdate update{taken_in, taken_in, T_map_body()};
+  update.gone = self.forget(scan);
+  update.drawn |= !update.gone.empty();
+  return update;
 }
 
 Pose2 ParticleSlam::T_map_odom() const {
@@ -223,6 +252,7 @@ std::vector<PlanarSlam::KeyPose> ParticleSlam::keyPoses() const {
 
 bool ParticleSlam::setFlightHeight(double height_m) {
   if (std::isfinite(height_m)) impl_->flight_height_m = height_m;
+  (void)impl_->passed.setFlightHeight(height_m);
   return false;
 }
 

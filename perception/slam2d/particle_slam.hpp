@@ -7,7 +7,8 @@
 //
 // The map covers one height band (SurfaceMap): what may touch the hull at flight height. Each scan is drawn with the
 // band that is set at its time. A scan from outside the band is matched and weighed, but not drawn. The map changes
-// only when a scan is taken in.
+// when a scan is taken in, and when something has gone from a map in slices that is drawn along the best trajectory
+// (SlicedMap).
 // Maps share the tiles they have in common, and trajectories share their common past.
 // T_map_odom jumps when a scan is taken in. All key scans may move then, because another particle may be the best.
 #pragma once

@@ -18,6 +18,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/time.hpp"
 #include "perception/projection/scan_projection.hpp"
+#include "perception/slam2d/columns.hpp"
 #include "perception/slam2d/slam_edge.hpp"
 #include "perception/slam2d/slam_task.hpp"
 
@@ -38,6 +39,7 @@ struct SlamUpdate {
   /// Newest of the key scans of an earlier pass, if the scan was matched in every direction to these alone; else -1.
   /// The scan is then as uncertain relative to the first one as that key scan is.
   int known_key = -1;
+  std::vector<GoneColumn> gone = {};  ///< What has gone from the map with this scan.
 };
 
 struct SlamCounts {

@@ -154,7 +154,9 @@ SlamUpdate ScanToMapSlam::addScan(const ProjectedScan& scan, const Pose2& T_odom
       first || self.last_key.exceeds(T_odom_body, scan.stamp, kKeyDistance_m, kKeyRotation_deg, kKeyTime_s);
   if (is_key) self.addKeyScan(scan);
   if (matched || is_key) self.draw(scan);
-  return {is_key, matched || is_key, self.pose.T_map_body};
+  SlamUpdate update{is_key, matched || is_key, self.pose.T_map_body};
+  update.gone = self.map.takeGone();
+  return update;
 }
 
 Pose2 ScanToMapSlam::T_map_odom() const { return impl_->T_map_odom; }

@@ -270,6 +270,7 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
     self.draw(scan);
     self.last_drawn = {T_odom_body, scan.stamp};
     update.drawn = true;
+    update.gone = self.map.takeGone();
   }
   update.T_map_body = self.T_map_body();
   if (learned && !first) self.T_map_odom = update.T_map_body * T_odom_body.inverse();
@@ -385,6 +386,7 @@ bool Slam2d::apply(const SlamResult& result) {
     if (self.flight_height_m) (void)self.map.setFlightHeight(*self.flight_height_m);
     for (const auto& [key, attached] : self.drawn_since_task)
       self.map.draw(*attached.scan, self.poseOf(key) * attached.T_key_body);
+    (void)self.map.takeGone();  // It was told when it went.
   }
   self.drawn_since_task.clear();
   self.T_map_odom = self.T_map_body() * self.T_odom_body.inverse();

@@ -325,6 +325,7 @@ bool SlicedMap::hasGone(int slice, CellIndex cell) {
   if (const auto top = low_.top(cell); top && pass.highest > *top - kThrough) return false;
   const auto gone = columns_.passed(cell, pass);
   if (!gone) return false;
+  gone_.push_back({combined_.centerOf(cell), slice * kSliceHeight_m});
   low_.forget(cell);
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) forgetLow({cell.x + dx, cell.y + dy}, gone->surely);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -71,6 +72,8 @@ class SlicedMap {
   /// What may touch the hull at flight height. A cell is occupied where any of the slices is, and free where at least
   /// one is free and none is occupied.
   common::OccupancyGrid atFlightHeight() { return combined_.snapshot(); }
+  /// What has gone since the last call.
+  std::vector<GoneColumn> takeGone() { return std::exchange(gone_, {}); }
   /// A copy that shares its tiles.
   SlicedMap snapshot();
 
@@ -100,6 +103,7 @@ class SlicedMap {
   GlassMemory glass_;
   LowObstacles low_;
   Columns columns_;
+  std::vector<GoneColumn> gone_;
   double flight_height_m_ = 0.0;
   int lowest_ = 0;  ///< Range of the slices that are combined; empty before the first scan.
   int highest_ = -1;

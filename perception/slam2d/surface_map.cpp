@@ -158,6 +158,13 @@ void SurfaceMap::update(CellIndex index, int steps) {
   if (!cell.isOccupied()) cell.hits = 0;  // The surface that was here is gone.
 }
 
+void SurfaceMap::forget(CellIndex index) {
+  if (!grid_.at(index).isOccupied()) return;
+  SurfaceCell& cell = grid_.mutableAt(index);
+  cell.log_odds = 0;
+  cell.hits = 0;
+}
+
 void SurfaceMap::addSurface(const Eigen::Vector2d& point_m, const Eigen::Vector2d& normal) {
   const CellIndex index = grid_.cellAt(point_m);
   SurfaceCell& cell = grid_.mutableAt(index);

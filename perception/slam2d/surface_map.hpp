@@ -75,6 +75,9 @@ class SurfaceMap {
 
   void draw(const SurfaceScan& scan, const common::Pose2& T_map_body, DrawingBoard& board);
 
+  /// What was drawn in the cell has gone; nothing happens if it is not occupied.
+  void forget(common::CellIndex cell);
+
   double resolution_m() const { return config_.resolution_m; }
   common::CellIndex cellAt(const Eigen::Vector2d& point_m) const { return grid_.cellAt(point_m); }
   SurfaceCell at(common::CellIndex cell) const { return grid_.at(cell); }

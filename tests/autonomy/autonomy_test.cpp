@@ -159,6 +159,26 @@ TEST(Autonomy, HomeWorksInAMissionThatFliesItsOwnGoalsAndResumeContinuesIt) {
   EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kDone);
 }
 
+/// A mission that fails at a goal 2.5 m from home.
+AutonomyStory failedMission(const char* take_off_ports) {
+  return AutonomyStory(std::string("<TakeOff ") + take_off_ports + R"(/><MoveToGoal goal="2.5;0"/><AlwaysFailure/>)");
+}
+
+TEST(Autonomy, AMissionThatFailsInFlightFliesHomeBeforeItLands) {
+  AutonomyStory story = failedMission("");
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 90.0));
+  EXPECT_EQ(story.autonomy().missionStatus().state, MissionState::kFailed);
+  EXPECT_NE(story.event("mission", "the mission has failed: the vehicle flies home"), story.events.end());
+  EXPECT_LT(story.world().vehicle->state.T_map_body().position_m.head<2>().norm(), 0.2);
+}
+
+TEST(Autonomy, TheAuthorOfAMissionMayLandItWhereItFails) {
+  AutonomyStory story = failedMission(R"(home_on_failure="false")");
+  ASSERT_TRUE(story.until([&] { return story.autonomy().finished(); }, 90.0));
+  EXPECT_NE(story.event("mission", "the mission has failed: the vehicle lands"), story.events.end());
+  EXPECT_GT(story.world().vehicle->state.T_map_body().position_m.x(), 1.5) << "and not at home";
+}
+
 TEST(Autonomy, AGoalGivenWhileHeldIsShownAndNamedByResume) {
   AutonomyStory story(R"(<TakeOff/><OperatorCommand/>)");
   ASSERT_TRUE(story.isFlying());

@@ -98,6 +98,56 @@ TEST_F(CameraObstaclesStory, WhatTheLaserSeesOrForgetsLaterCounts) {
   EXPECT_NEAR(obstacles_.cells_map_m()[0].y(), 9.0, 0.06);
 }
 
+/// Somebody whom laser and camera saw, and of whom the laser has seen that he has gone.
+class WhoHasGone : public CameraObstaclesStory {
+ protected:
+  WhoHasGone() {
+    upright(0.3, 1.7);
+    grid_.set(grid_.cellAt(2.0, 1.0), 60);
+    update();
+  }
+  void upright(double from_m, double to_m) {
+    for (double z_m = from_m; z_m <= to_m; z_m += 0.05) mark({2.0, 1.0, z_m});
+  }
+  void leaves() {
+    grid_.set(grid_.cellAt(2.0, 1.0), -60);
+    obstacles_.forget({{{2.0, 1.0}, 1.0}});
+    update();
+  }
+};
+
+TEST_F(WhoHasGone, IsNoObstacleOfTheCameraEither) {
+  EXPECT_TRUE(obstacles_.cells_map_m().empty()) << "the laser has him";
+  leaves();
+  EXPECT_TRUE(obstacles_.cells_map_m().empty());
+  mark({4.0, 1.0, 1.0});  // The submap grows.
+  update();
+  EXPECT_EQ(obstacles_.cells_map_m().size(), 1u) << "and what was forgotten stays so";
+}
+
+TEST_F(WhoHasGone, IsOneAgainWhenTheCameraMeetsHimAgain) {
+  leaves();
+  mark({2.0, 1.0, 1.0}, 20);
+  update();
+  EXPECT_TRUE(obstacles_.cells_map_m().empty()) << "it has seen less";
+  mark({2.0, 1.0, 1.0}, 37);
+  update();
+  EXPECT_EQ(obstacles_.cells_map_m().size(), 1u);
+}
+
+/// The beams passed above the table, and below the lamp.
+TEST_F(WhoHasGone, WhatTheBeamsDidNotPassStays) {
+  for (double x_m = 2.0; x_m < 2.5; x_m += 0.02) mark({x_m, 1.3, 0.8});
+  mark({2.0, 0.7, 1.25});
+  update();
+  const std::size_t before = obstacles_.cells_map_m().size();
+  ASSERT_GT(before, 5u);
+  grid_.set(grid_.cellAt(2.0, 1.0), -60);
+  for (const double y_m : {0.7, 1.0, 1.3}) obstacles_.forget({{{2.0, y_m}, 1.0}, {{2.2, y_m}, 1.0}});
+  update();
+  EXPECT_EQ(obstacles_.cells_map_m().size(), before);
+}
+
 TEST_F(CameraObstaclesStory, TheyMoveWithTheirSubmap) {
   mark({2.0, 1.0, 1.0});
   update();

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "perception/slam2d/sliced_map.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -94,6 +96,37 @@ TEST_F(GivenMapOverlayStory, WhatTheFlightHasSeenCounts) {
   EXPECT_TRUE(isOccupied(at(T_map_given, 4.85, 1.0)));
   EXPECT_FALSE(isOccupied(at(T_map_given, 5.0, 1.0))) << "not a wall behind the wall";
   EXPECT_TRUE(isOccupied(at(T_map_given, 5.0, 2.0))) << "where nothing was seen";
+}
+
+/// The rule of the flight's map holds over the given one: for a door that was shut when that was made, and for somebody
+/// who stands behind it for a while.
+TEST_F(GivenMapOverlayStory, WhatBeamsHavePassedForTwoSecondsIsGone) {
+  given_.T_given_grid = {};
+  overlay_.emplace(&given_, log_);
+  perception::SlicedMap map{perception::GridDrawingConfig{}};
+  double now_s = 0.0;
+  const auto look = [&](float range_m, double duration_s, float tilt_m = 0.0F) {
+    for (double at_s = 0.0; at_s < duration_s; at_s += 0.25) {
+      perception::DrawnScan scan;
+      scan.stamp = common::Time::fromSeconds(now_s += 0.25);
+      scan.body_height_m = 1.0;
+      for (float angle = -0.1F; angle < 0.1F; angle += 0.005F)
+        scan.hits_level_m.emplace_back(range_m * std::cos(angle), range_m * std::sin(angle), tilt_m);
+      map.draw(scan, {3.0, 2.0, 0.0});
+    }
+    flown_ = map.atFlightHeight();
+    step(Pose2{});
+  };
+  step(Pose2{});
+  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.0, 2.0)));
+  for (const float tilt_m : {0.0F, 0.2F, -0.2F, 0.1F, -0.1F, 0.0F}) look(2.5F, 2.0, tilt_m);
+  EXPECT_TRUE(isFree(at(Pose2{}, 5.0, 2.0)));
+  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.49, 2.02)));
+  look(3.4F, 1.5);
+  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.49, 2.02)));
+  look(3.4F, 1.0);
+  EXPECT_TRUE(isFree(at(Pose2{}, 5.49, 2.02)));
+  EXPECT_TRUE(isOccupied(at(Pose2{}, 5.0, 3.0))) << "where nothing passed";
 }
 
 TEST_F(GivenMapOverlayStory, NoiseOfTheLocalizationDoesNotMoveIt) {

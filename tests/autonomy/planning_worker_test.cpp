@@ -1,6 +1,10 @@
 // Answers of the planning job: paths to goals, to nearly free goals, and to places where others can pass.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "autonomy/planning_jobs/planning_worker.hpp"
@@ -8,6 +12,9 @@
 
 namespace swiftlet::autonomy {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
 
 /// A room of 8 m by 4 m from the origin on, walls included.
 std::shared_ptr<common::OccupancyGrid> room() {
@@ -169,6 +176,12 @@ TEST_F(Worker, ApproachesABlockedGoalAndThenMakesRoom) {
   EXPECT_TRUE(next.detour->makes_room);
 }
 
+std::vector<common::Frontier> blockedFrontiers(const PlanningAnswer& answer) {
+  std::vector<common::Frontier> frontiers = answer.exploration->frontiers;
+  std::erase_if(frontiers, [](const auto& one) { return one.reason != common::FrontierReason::kBlocked; });
+  return frontiers;
+}
+
 /// Draws the outline of somebody who stands there, unknown inside.
 void stand(common::OccupancyGrid& grid, const Eigen::Vector2d& place_m) {
   for (double x_m = -0.3; x_m <= 0.3; x_m += 0.02)
@@ -236,6 +249,36 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   ASSERT_TRUE(answer.blockage);
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;
   EXPECT_GE(answer.blockage->frontiers, 1);
+  EXPECT_EQ(blockedFrontiers(answer).size(), static_cast<std::size_t>(answer.blockage->frontiers));
+}
+
+/// Two doors in the wall, and a person in each; the west wall has a crack.
+TEST_F(Worker, BlockedFrontiersAreToldFromWalledOnesEachWithWhoIsInTheWay) {
+  for (int y = 0; y < 80; ++y)
+    for (int x = 81; x < 160; ++x) grid->set({x, y}, common::occupancy::kUnknown);
+  for (int y = 0; y < 80; ++y)
+    if (std::abs(y - 20) >= 10 && std::abs(y - 60) >= 10) grid->set({80, y}, common::occupancy::kMaxSteps);
+  for (int y = 37; y < 44; ++y) grid->set({0, y}, -common::occupancy::kMaxSteps);
+  people = {{1, {4.0, 1.0}, 0.25, {0.3, 0.0}, true, {}}, {2, {4.0, 3.0}, 0.25, {0.3, 0.0}, true, {}}};
+  std::vector<common::Disc> discs;
+  for (const common::DynamicObstacle& person : people) discs.push_back({person.center_map_m, 0.6});
+  auto answer = ask(ExploreRequest{}, discs);
+  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
+    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt}, discs);
+  }
+  ASSERT_TRUE(answer.blockage);
+  EXPECT_EQ(blockedFrontiers(answer).size(), static_cast<std::size_t>(answer.blockage->frontiers));
+  EXPECT_THAT(answer.blockage->who, AllOf(HasSubstr("a person at (4.00, 1.00)"), HasSubstr(" and a person at ")));
+  std::vector<std::string> explanations;
+  for (const common::Frontier& frontier : blockedFrontiers(answer)) {
+    const char* own = frontier.centroid_map_m.y() < 2.0 ? "(4.00, 1.00)" : "(4.00, 3.00)";
+    EXPECT_EQ(frontier.explanation, fmt::format("blocked: a person at {} is in the way", own));
+  }
+  const auto& frontiers = answer.exploration->frontiers;
+  EXPECT_TRUE(std::any_of(frontiers.begin(), frontiers.end(), [](const common::Frontier& frontier) {
+    return frontier.centroid_map_m.x() < 0.1 && frontier.reason != common::FrontierReason::kBlocked;
+  })) << "nobody stands in the crack";
 }
 
 /// A room around the take-off place and another one; the door between them is at (2, 0).

@@ -1,7 +1,11 @@
 // The supervisor above the mission, tick by tick.
+#include <limits>
+#include <optional>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "autonomy/health/checks.hpp"
 #include "tests/autonomy/supervisor_story.hpp"
 
 namespace swiftlet::autonomy {
@@ -221,6 +225,64 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   supervisor_.homeEnded(Time::fromSeconds(30), true, {});
   EXPECT_TRUE(at(30.0).land);
   EXPECT_THAT(at(30.0).land_reason, HasSubstr("home reached, turned back"));
+}
+
+TEST_F(SupervisorStory, AMissionThatHasFailedFliesHomeAndLandsThere) {
+  at(1.0);
+  supervisor_.missionFailed(Time::fromSeconds(1.5), "goal (6.00, 2.00) is unreachable");
+  const auto events = log_.take();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "the mission has failed: the vehicle flies home");
+  EXPECT_EQ(events[0].reason, "goal (6.00, 2.00) is unreachable");
+  EXPECT_EQ(at(2.0).home, 1u);
+  EXPECT_EQ(at(2.0).flown_by, common::FlownBy::kSupervisor);
+  EXPECT_EQ(supervisor_.refusal({1, common::GoalCommand{}}),
+            "the vehicle flies home and lands there: the mission has failed");
+  supervisor_.homeEnded(Time::fromSeconds(30), true, {});
+  EXPECT_TRUE(at(30.0).land);
+  EXPECT_EQ(at(30.0).land_reason, "home reached, the mission has failed");
+}
+
+TEST_F(SupervisorStory, AfterAFailedMissionItLandsWhereThePathHomeEnds) {
+  at(1.0);
+  supervisor_.missionFailed(Time::fromSeconds(1.5), "");
+  supervisor_.homeEnded(Time::fromSeconds(30), false, "a person at (1.00, 0.00) is in the way");
+  EXPECT_TRUE(at(30.0).land);
+  EXPECT_EQ(at(30.0).land_reason, "the mission has failed; home not reached: a person at (1.00, 0.00) is in the way");
+}
+
+/// A maneuver that waits gives up while the supervisor would still let it, so that the mission decides what is next.
+TEST_F(SupervisorStory, TheTimeToSpareEndsShortlyBeforeItTurnsBack) {
+  constexpr double kPerSecond = 0.001;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  energy_.home_planned = true;
+  const SupervisorConfig config;
+  std::optional<double> gives_up_s, turns_back_s;
+  for (double t_s = 0.0; t_s < 1000.0 && !turns_back_s; t_s += 0.1) {
+    energy_.battery_remaining = 0.9 - kPerSecond * t_s;
+    energy_.seconds_left = (energy_.battery_remaining - config.battery_land_share) / kPerSecond;
+    if (!gives_up_s && spareTime_s(energy_, config) <= 0.0) gives_up_s = t_s;
+    if (at(t_s).home > 0) turns_back_s = t_s;
+  }
+  ASSERT_TRUE(gives_up_s && turns_back_s);
+  EXPECT_NEAR(*turns_back_s, (0.9 - 0.12 - 0.02 - 1.15 * 0.05) / kPerSecond, 0.2);
+  EXPECT_NEAR(*turns_back_s - *gives_up_s, 5.0, 0.2);
+}
+
+TEST(SpareTime, IsNoneBelowTheChargeAtWhichItLandsAndUnboundedWhileNothingIsKnown) {
+  common::EnergyLayer energy;
+  const SupervisorConfig config;
+  EXPECT_EQ(spareTime_s(energy, config), std::numeric_limits<double>::infinity());
+  energy.seconds_left = 300.0;
+  EXPECT_EQ(spareTime_s(energy, config), std::numeric_limits<double>::infinity()) << "the flight home is not known";
+  energy.home_share = 0.05;
+  EXPECT_LT(spareTime_s(energy, config), 300.0);
+  const double spare_s = spareTime_s(energy, config);
+  energy.land_share = 0.4;  // The thrust gives out earlier.
+  EXPECT_LT(spareTime_s(energy, config), spare_s);
+  energy.battery_remaining = 0.3;
+  EXPECT_EQ(spareTime_s(energy, config), 0.0);
 }
 
 TEST_F(SupervisorStory, HoldStopsAFlightHomeForTheChargeUntilResume) {

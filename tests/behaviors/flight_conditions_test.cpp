@@ -80,6 +80,7 @@ TEST(Conditions, IsExplored) {
     };
   };
   EXPECT_EQ(objectionOf("<IsExplored/>", frontier(common::FrontierReason::kOpen)), "1 frontier is open");
+  EXPECT_EQ(objectionOf("<IsExplored/>", frontier(common::FrontierReason::kBlocked)), "1 frontier is blocked");
   EXPECT_EQ(objectionOf("<IsExplored/>", frontier(common::FrontierReason::kUnreachable)), "");
 }
 

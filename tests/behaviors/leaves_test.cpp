@@ -8,6 +8,7 @@ namespace swiftlet::behaviors::testing {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 TEST(TakeOff, KeepsOneIntentUntilItIsDone) {
   Flight flight(R"(<TakeOff height_m="1.5"/>)");
@@ -52,6 +53,38 @@ TEST(Explore, PassesOnItsBoundsIfItHasSome) {
   ASSERT_TRUE(bounds);
   EXPECT_EQ(bounds->min_named_m, Eigen::Vector2d(-2, -1.5));
   EXPECT_EQ(bounds->max_named_m, Eigen::Vector2d(4, 5));
+}
+
+/// 30 m2 are explored, and a frontier of that length is left.
+void leaveFrontier(Flight& flight, double length_m, common::FrontierReason reason) {
+  flight.change([&](test::Layers& layers) {
+    layers.map.explored_area_m2 = 30.0;
+    std::vector<common::Frontier> frontiers(1);
+    frontiers.front().length_m = length_m;
+    frontiers.front().reason = reason;
+    layers.map.frontiers = std::make_shared<const std::vector<common::Frontier>>(frontiers);
+  });
+}
+
+TEST(Explore, FailsIfTooSmallAShareOfTheFreeSpaceIsExplored) {
+  Flight flight(R"(<Explore coverage_min="0.9"/>)");
+  flight.tick();
+  leaveFrontier(flight, 5.0, common::FrontierReason::kUnreachable);
+  flight.succeeds().tick();
+  EXPECT_EQ(flight.last.state, common::MissionState::kFailed);
+  EXPECT_THAT(flight.cause(), HasSubstr("incomplete, 75 % of the free space are explored and 90 % asked for"));
+}
+
+TEST(Explore, IsDoneWithTheCoverageThatIsAskedFor) {
+  const auto ends = [](const char* ports, double length_m, common::FrontierReason reason) {
+    Flight flight(std::string("<Explore ") + ports + "/>");
+    flight.tick();
+    leaveFrontier(flight, length_m, reason);
+    return flight.succeeds().tick();
+  };
+  EXPECT_EQ(ends(R"(coverage_min="0.9")", 1.5, common::FrontierReason::kUnreachable), "DONE") << "30 of 33 m2";
+  EXPECT_EQ(ends(R"(coverage_min="0.9")", 5.0, common::FrontierReason::kOutOfBounds), "DONE") << "not to be explored";
+  EXPECT_EQ(ends("", 5.0, common::FrontierReason::kUnreachable), "DONE") << "none is asked for";
 }
 
 TEST(Localize, ExploresUntilTheVehicleIsLocalized) {

@@ -269,6 +269,19 @@ TEST_F(PersonWhoLeaves, IsGoneAtEveryHeightAfterTwoSecondsOfPassing) {
   EXPECT_TRUE(common::occupancy::isOccupied(at(3.01, 0.0))) << "the wall behind stays";
 }
 
+/// What does not go by this rule is not told: another map may see it otherwise.
+TEST_F(PersonWhoLeaves, IsToldWithThePlaceAndTheHeightOfTheBeams) {
+  EXPECT_TRUE(map_.takeGone().empty());
+  watching_.draw(over(0.0, 1.0), 2.5);
+  const std::vector<GoneColumn> gone = map_.takeGone();
+  ASSERT_GT(gone.size(), 5u);
+  for (const GoneColumn& column : gone) {
+    EXPECT_LT((column.place_map_m - Eigen::Vector2d(1.5, 0.0)).norm(), 0.4);
+    EXPECT_NEAR(column.height_m, 1.0, 0.03);
+  }
+  EXPECT_TRUE(map_.takeGone().empty()) << "once";
+}
+
 TEST_F(PersonWhoLeaves, PassingIsSummedUpWhileNobodyLooksInBetween) {
   watching_.draw(over(0.0, 1.0), 1.25);
   DrawnScan elsewhere = around(3.0, 720);

@@ -114,6 +114,62 @@ TEST(ParticleSlam, IgnoresLateEmptyAndInvalidScans) {
   EXPECT_EQ(slam.anchor(), 1);
 }
 
+/// A room in which somebody stands before a vehicle that hovers, and leaves.
+class ParticlesAndAPerson : public testing::Test {
+ protected:
+  ParticlesAndAPerson() {
+    room_.addPolyline({{-3.0, -2.0}, {4.0, -2.0}, {4.0, 2.5}, {-3.0, 2.5}}, true);
+    room_.addBox(-1.0, 2.0, 0.6, 0.4);
+    with_person_ = room_;
+    with_person_.addBox(1.5, 0.0, 0.3, 0.4);
+    laser_.rate_hz = 4.0;
+    laser_.sweep_s = 0.0;
+  }
+  void look(const test::PlanarWorld& world, double duration_s, double tilt_rad = 0.0) {
+    for (int i = 0; i < static_cast<int>(duration_s * laser_.rate_hz); ++i) {
+      common::RandomStream random(5, "look", scans_);
+      common::Pose3 pose = common::lifted(Pose2{}, height_m_);
+      pose.rotation = common::expSO3({0.0, tilt_rad * std::sin(1.1 * i), 0.0});
+      const auto at = [&](common::Time) { return pose; };
+      const auto stamp = common::Time::fromSeconds(static_cast<double>(scans_++) / laser_.rate_hz);
+      slam_.addScan(project(test::sweep(world, laser_, at, stamp, random), laser_, at, {}), {},
+                    Eigen::Vector3d(1e-6, 1e-6, 1e-7).asDiagonal());
+    }
+  }
+  bool isOccupiedAround(double x_m, double y_m, double half_m) {
+    const common::OccupancyGrid map = slam_.snapshot();
+    bool occupied = false;
+    map.forEachCell([&](CellIndex cell, common::occupancy::Cell value) {
+      const Eigen::Vector2d off_m = map.centerOf(cell) - Eigen::Vector2d(x_m, y_m);
+      occupied |= common::occupancy::isOccupied(value) && off_m.cwiseAbs().maxCoeff() < half_m;
+    });
+    return occupied;
+  }
+  test::PlanarWorld room_, with_person_;
+  common::LaserConfig laser_;
+  ParticleSlam slam_{someParticles(10)};
+  double height_m_ = 1.0;
+  std::uint64_t scans_ = 0;
+};
+
+/// Scans are taken in every 2 s of a hover, so that it took 24 s before.
+TEST_F(ParticlesAndAPerson, WhatBeamsHavePassedForTwoSecondsIsGone) {
+  look(with_person_, 12.0, 0.1);
+  ASSERT_TRUE(isOccupiedAround(1.4, 0.0, 0.3));
+  look(room_, 1.5);
+  EXPECT_TRUE(isOccupiedAround(1.4, 0.0, 0.3)) << "not at once: a return may be missing";
+  look(room_, 1.0);
+  EXPECT_FALSE(isOccupiedAround(1.4, 0.0, 0.3));
+  EXPECT_TRUE(isOccupiedAround(4.0, 0.0, 0.1)) << "the wall behind stays";
+}
+
+TEST_F(ParticlesAndAPerson, BeamsAboveSomethingDoNotSayThatItIsGone) {
+  look(with_person_, 12.0, 0.1);
+  height_m_ = 1.2;
+  look(room_, 4.0);
+  EXPECT_TRUE(isOccupiedAround(1.4, 0.0, 0.3));
+}
+
 /// The confidence does not grow beyond its cap, however often a place was seen.
 TEST(ParticleSlam, TheConfidenceOfTheBestMapStaysCapped) {
   ParticleSlam slam(someParticles(5));

@@ -17,7 +17,7 @@ export function readColors() {
     color[name] = style(`--map-${name}`);
   color.card = style('--card');
   color.frontier = Object.fromEntries(
-    ['open', 'too small', 'unreachable', 'out of bounds', 'blacklisted', 'position uncertain'].map((reason) => [
+    ['open', 'too small', 'unreachable', 'blocked', 'out of bounds', 'blacklisted', 'position uncertain'].map((reason) => [
       reason,
       style(`--frontier-${reason.replaceAll(' ', '-')}`),
     ]),

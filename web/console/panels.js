@@ -75,8 +75,10 @@ export function showAge(age_s) {
 
 /** The places are shown in the frame of the map beside. */
 export function showFrontiers(frontiers, T_shown_map) {
-  const open = frontiers.filter(({ reason }) => reason === 'open').length;
-  setText('frontier-count', frontiers.length === 0 ? 'none' : `${open} open, ${frontiers.length - open} left out`);
+  const count = (wanted) => frontiers.filter(({ reason }) => reason === wanted).length;
+  const open = count('open'), blocked = count('blocked');
+  const parts = [`${open} open`, ...(blocked ? [`${blocked} blocked`] : []), `${frontiers.length - open - blocked} left out`];
+  setText('frontier-count', frontiers.length === 0 ? 'none' : parts.join(', '));
   const rows = frontiers.map(({ reason, explanation, centroid_m, length_m }) => {
     const [x, y] = moved(T_shown_map, centroid_m);
     return make('li', {}, make('i', { className: `dot ${reason.replaceAll(' ', '-')}`, title: reason }),

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <tuple>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/autonomy/maneuver_story.hpp"
@@ -151,6 +152,40 @@ TEST_F(ExploreManeuver, WhatIsBlockedWhenTheChargeIsNeededIsIncomplete) {
   spare_s_ = 0.0;
   EXPECT_EQ(runToTheEnd(1.0), IntentState::kFailed);
   EXPECT_EQ(executor_.status().reason.substr(0, 36), "incomplete, 1 blocked by a person at");
+}
+
+TEST_F(ExploreManeuver, WhatIsBehindSomebodyIsBlockedAndNotUnreachable) {
+  buildPassage();
+  discs_ = {personInThePassage()};
+  want(common::ExploreIntent{});
+  run(2.0);
+  const auto blocked = [this] {
+    const auto& frontiers = *executor_.desk().frontiers();
+    return std::count_if(frontiers.begin(), frontiers.end(), [](const common::Frontier& frontier) {
+      return frontier.reason == common::FrontierReason::kBlocked;
+    });
+  };
+  EXPECT_EQ(blocked(), 1);
+  spare_s_ = 0.0;
+  EXPECT_EQ(runToTheEnd(30.0), IntentState::kFailed);
+  EXPECT_EQ(timesSaid("frontier of 0.95 m at"), 1);
+  EXPECT_EQ(reasonOf("frontier of 0.95 m at").substr(0, 21), "blocked: a person at ");
+}
+
+/// He stands in a door, and three looks past him show nothing more of what is behind it.
+TEST_F(ExploreManeuver, LooksPastSomebodyCountNoLongerOnceHeHasGone) {
+  build(true);
+  people_ = {{1, {5.0, 2.0}, 0.25, {0.3, 0.0}, true, {}}};
+  discs_ = {{{5.0, 2.0}, 0.5}};
+  want(common::ExploreIntent{});
+  runUntil([this] { return executor_.status().reason.starts_with("waiting: incomplete"); }, 90.0);
+  ASSERT_THAT(executor_.status().reason, testing::HasSubstr(" blocked by a person at (5.00, 2.00)"));
+  run(20.0);
+  people_.clear();
+  discs_.clear();
+  const int viewpoints = executor_.desk().use().viewpoints;
+  EXPECT_EQ(runToTheEnd(120.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_GE(executor_.desk().use().viewpoints, viewpoints + 3);
 }
 
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
