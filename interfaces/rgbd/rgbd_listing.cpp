@@ -102,7 +102,7 @@ Unpaired readAssociations(const fs::path& folder, RgbdListing& listing) {
       continue;
     }
     const StampedFile &color = depth_first ? second : first, &depth = depth_first ? first : second;
-    listing.pairs.push_back({color.stamp, color.file, depth.file});
+    listing.pairs.push_back({color.stamp, color.file, depth.file, depth.stamp - color.stamp});
   }
   std::stable_sort(listing.pairs.begin(), listing.pairs.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
@@ -147,7 +147,8 @@ void associate(const std::vector<StampedFile>& colors, const std::vector<Stamped
     used_depths.insert(candidate.depth);
   }
   for (const auto& [color, depth] : depth_of)
-    listing.pairs.push_back({colors[color].stamp, colors[color].file, depths[depth].file});
+    listing.pairs.push_back(
+        {colors[color].stamp, colors[color].file, depths[depth].file, depths[depth].stamp - colors[color].stamp});
   listing.unpaired += colors.size() + depths.size() - 2 * depth_of.size();
 }
 
@@ -200,7 +201,7 @@ void takeNumbersAsFrames(RgbdListing& listing) {
   if (!areNumbered(listing.pairs)) return;
   listing.stamps_per_s = kNumberedFrames_Hz;
   for (RgbdListing::Pair& pair : listing.pairs)
-    pair.stamp = Time::fromSeconds(pair.stamp.seconds() / kNumberedFrames_Hz);
+    pair = {Time::fromSeconds(pair.stamp.seconds() / kNumberedFrames_Hz), pair.color, pair.depth};
 }
 
 /// Whether it is there. Throws InputError where that cannot be seen.

@@ -15,6 +15,7 @@ struct RgbdListing {
   struct Pair {
     common::Time stamp;
     std::filesystem::path color, depth;
+    common::Duration depth_later = {};  ///< From the colour image to the depth image.
   };
 
   std::string format;           ///< For people: "TUM RGB-D".
