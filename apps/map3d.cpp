@@ -1,5 +1,6 @@
 // swiftlet map3d: the trajectory and the coloured cloud of a recorded RGB-D camera.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "apps/map3d_notes.hpp"
 #include "apps/map3d_outputs.hpp"
 #include "apps/map3d_run.hpp"
+#include "apps/map3d_trust.hpp"
 #include "apps/progress_line.hpp"
 #include "apps/recorded_log.hpp"
 #include "apps/show.hpp"
@@ -63,13 +65,19 @@ struct RecordedCamera {
   Pose3 T_camera_recorded;
 };
 
-/// The results are in the given poses' world. Without any, the map begins at the first pose, whose axes are those of
-/// `camera` in the map and those of the recorder's camera in the results.
-Pose3 T_results_map(const Map3dRun& run) {
-  if (!run.anchor) return interfaces::T_camera_optical().inverse();
-  const TrackedFrame& frame = run.tracked[run.anchor->tracked];
-  const Pose3 T_map_camera = run.mapper.scans()->T_map_level(frame.scan) * frame.T_scan_camera;
-  return run.anchor->T_world_camera * T_map_camera.inverse();
+Pose3 T_map_camera(const Map3dRun& run, const TrackedFrame& frame) {
+  return run.mapper.scans()->T_map_level(frame.scan) * frame.T_scan_camera;
+}
+
+/// The results are in the given poses' world. Without any, and for pieces that are not the map, they begin at the first
+/// pose, whose axes are those of the recorder's camera.
+Pose3 T_results_map(const Map3dRun& run, const MapPiece& piece) {
+  if (run.anchor) {
+    const TrackedFrame& frame = run.tracked[run.anchor->tracked];
+    if (run.mapper.pieceOf(frame.scan) == piece.number)
+      return run.anchor->T_world_camera * T_map_camera(run, frame).inverse();
+  }
+  return interfaces::T_camera_optical().inverse() * T_map_camera(run, piece.frames.front()).inverse();
 }
 
 /// nullopt if nothing was measured.
@@ -83,10 +91,19 @@ std::optional<double> medianDepth_m(const common::DepthImage& depth) {
   return *middle;
 }
 
-void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, Map3dRun& run) {
+/// The newest tracked frames lose their poses.
+void doubt(std::size_t frames, Map3dRun& run) {
+  run.tracked.resize(run.tracked.size() - std::min(frames, run.tracked.size()));
+  if (run.anchor && run.anchor->tracked >= run.tracked.size()) run.anchor.reset();
+  run.lost += frames;
+  run.doubted += frames;
+}
+
+void addFrame(const common::RgbdFrame& frame, common::Duration depth_later, mapping3d::RecordedSeeds& seeds,
+              Map3dRun& run) {
   const auto begin = flight::Clock::now();
   const auto seed = seeds.at(frame.stamps.measured);
-  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seed, nullptr, {}});
+  const mapping3d::MappedFrame mapped = run.mapper.add(frame, {seed, nullptr, {}, depth_later});
   const mapping3d::RgbdPose& pose = mapped.pose;
   seeds.compare(pose);
   run.frame_ms.push_back(1e3 * flight::secondsSince(begin));
@@ -98,11 +115,14 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
   run.with_pose += seed ? 1 : 0;
   if (!pose.isTracked()) {
     ++run.lost;
-    ++run.lost_in_a_row;
-    if (run.isFalseStart(frame.stamps.measured)) run.beginAnew();
+    doubt(static_cast<std::size_t>(pose.doubted), run);
     return;
   }
-  run.lost_in_a_row = 0;
+  if (mapped.begun) {
+    run.tracked.push_back({mapped.begun->stamp, mapped.begun->scan, Pose3{}});
+    --run.lost;
+    ++run.key_frames;
+  }
   if (seed && !run.anchor) run.anchor = WorldAnchor{run.tracked.size(), seed->T_map_camera};
   if (!run.tracked.empty()) run.disagreement.add(index, 1.0 - pose.fit.agreement);
   run.found_again += pose.state == mapping3d::TrackState::kFoundAgain ? 1 : 0;
@@ -111,13 +131,11 @@ void addFrame(const common::RgbdFrame& frame, mapping3d::RecordedSeeds& seeds, M
 }
 
 /// Of the recorder's camera, with all loop closures.
-common::Trajectory trajectoryOf(const Map3dRun& run, const RecordedCamera& camera) {
-  const auto keys = run.mapper.scans();
-  const Pose3 T_results = T_results_map(run);
+common::Trajectory trajectoryOf(const Map3dRun& run, const MapPiece& piece, const RecordedCamera& camera) {
+  const Pose3 T_results = T_results_map(run, piece);
   common::Trajectory trajectory;
-  for (const TrackedFrame& frame : run.tracked)
-    trajectory.push_back(
-        {frame.stamp, T_results * camera.recorded(keys->T_map_level(frame.scan) * frame.T_scan_camera)});
+  for (const TrackedFrame& frame : piece.frames)
+    trajectory.push_back({frame.stamp, T_results * camera.recorded(T_map_camera(run, frame))});
   return trajectory;
 }
 
@@ -173,7 +191,7 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
   const auto begin = flight::Clock::now();
   ProgressLine line(options.json);
   while (const auto frame = folder.next()) {
-    addFrame(*frame, seeds, run);
+    addFrame(*frame, folder.depthLater(), seeds, run);
     const double share = static_cast<double>(folder.passed()) / static_cast<double>(folder.listing().pairs.size());
     line.update(share,
                 fmt::format("{}, {}, {} lost", plural(run.frames, "frame", "frames"),
@@ -186,15 +204,21 @@ void mapFolder(interfaces::RgbdFolder& folder, const Map3dOptions& options, Map3
 }
 
 /// In the axes of the results, which the trajectory has too.
-common::KeyPoses resultKeys(const Map3dRun& run) {
+common::KeyPoses resultKeys(const Map3dRun& run, const MapPiece& piece) {
   common::KeyPoses keys = *run.mapper.scans();
-  const Pose3 T_results = T_results_map(run);
+  const Pose3 T_results = T_results_map(run, piece);
   for (common::KeyPose& key : keys.keys) key.T_map_camera = T_results * *key.T_map_camera;
   return keys;
 }
 
-Map3dMap resultsOf(Map3dRun& run, const std::vector<common::Submap3d>& submaps) {
-  const common::KeyPoses keys = resultKeys(run);
+std::vector<common::Submap3d> submapsOf(Map3dRun& run, const MapPiece& piece) {
+  std::vector<common::Submap3d> submaps = run.mapper.submaps();
+  std::erase_if(submaps, [&](const auto& submap) { return run.mapper.pieceOf(submap.key) != piece.number; });
+  return submaps;
+}
+
+Map3dMap resultsOf(const Map3dRun& run, const MapPiece& piece, const std::vector<common::Submap3d>& submaps) {
+  const common::KeyPoses keys = resultKeys(run, piece);
   mapping3d::CloudConfig cloud;
   cloud.cube_m = run.config.submaps.cube_m;
   return {mapping3d::cloudOf(submaps, keys, cloud), mapping3d::fuse(submaps, keys, run.config.voxels.resolution_m)};
@@ -209,20 +233,21 @@ bool areVoxelsMissing(const std::vector<common::Submap3d>& submaps, const mappin
                               }));
 }
 
-/// Reads the recording again, when all loops are closed: each tracked frame is drawn where it is at the end.
-mapping3d::TsdfVolume volumeOf(const interfaces::RgbdListing& listing, const Map3dRun& run, ProgressLine& line) {
-  const common::KeyPoses keys = resultKeys(run);
+/// Reads the recording again, when all loops are closed: each frame of the piece is drawn where it is at the end.
+mapping3d::TsdfVolume volumeOf(const interfaces::RgbdListing& listing, const Map3dRun& run, const MapPiece& piece,
+                               ProgressLine& line) {
+  const common::KeyPoses keys = resultKeys(run, piece);
   mapping3d::TsdfVolume volume({run.config.submaps.cube_m, run.config.submaps.point_range_m});
   interfaces::RgbdFolder folder(listing);
   const auto begin = flight::Clock::now();
-  auto tracked = run.tracked.begin();
-  while (tracked != run.tracked.end()) {
+  auto tracked = piece.frames.begin();
+  while (tracked != piece.frames.end()) {
     const auto frame = folder.next();
     if (!frame) break;
     if (frame->stamps.measured != tracked->stamp) continue;
     volume.integrate(*frame, keys.T_map_level(tracked->scan) * tracked->T_scan_camera);
     ++tracked;
-    line.update(static_cast<double>(tracked - run.tracked.begin()) / static_cast<double>(run.tracked.size()),
+    line.update(static_cast<double>(tracked - piece.frames.begin()) / static_cast<double>(piece.frames.size()),
                 "drawing the mesh", flight::secondsSince(begin));
   }
   return volume;
@@ -248,9 +273,9 @@ ResultsKind resultsWith(const std::string& mesh, const fs::path& out) {
 }
 
 void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& listing, const ResultsFolder& results,
-                  Map3dRun& run, std::vector<std::string>& notes) {
+                  const MapPiece& piece, Map3dRun& run, std::vector<std::string>& notes) {
   ProgressLine line(options.json);
-  const mapping3d::TsdfVolume volume = volumeOf(listing, run, line);
+  const mapping3d::TsdfVolume volume = volumeOf(listing, run, piece, line);
   const common::SurfaceMesh mesh = mapping3d::surfaceNet(volume);
   run.triangles = mesh.triangles.size();
   const fs::path file = options.mesh;
@@ -266,20 +291,36 @@ void writeSurface(const Map3dOptions& options, const interfaces::RgbdListing& li
     notes.emplace_back("the mesh is not complete: it would need too much memory at this --resolution");
 }
 
+/// Of each piece, the map first.
+nlohmann::ordered_json piecesJson(const std::vector<MapPiece>& pieces) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const MapPiece& piece : pieces)
+    list.push_back({{"frames", piece.frames.size()},
+                    {"from_s", piece.frames.front().stamp.seconds()},
+                    {"to_s", piece.frames.back().stamp.seconds()}});
+  return list;
+}
+
 nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, const Map3dRun& run,
-                                 double path_length_m, const std::vector<std::string>& notes, const fs::path& out) {
+                                 const Map3dTrust& trust, double path_length_m, const std::vector<std::string>& notes,
+                                 const fs::path& out) {
   return {{"folder", options.folder},
           {"format", folder.listing().format},
           {"out", out.string()},
+          {"trusted", trust.reason.empty()},
+          {"trust_reason", trust.reason},
           {"frames", run.frames},
           {"skipped_frames", folder.skipped()},
           {"unpaired_images", folder.listing().unpaired},
           {"frames_with_pose", run.with_pose},
-          {"frames_before_the_map", run.before},
           {"lost_frames", run.lost},
+          {"doubted_frames", run.doubted},
+          {"pieces", piecesJson(run.pieces())},
           {"found_again", run.found_again},
           {"key_frames", run.key_frames},
           {"loops", run.loops},
+          {"places_seen_twice", trust.contradiction.seen_twice},
+          {"contradiction", std::round(1e4 * trust.contradiction.share()) / 1e4},
           {"path_length_m", path_length_m},
           {"mesh_triangles", run.triangles},
           {"milliseconds_a_frame", run.medianMs()},
@@ -304,12 +345,14 @@ mapping3d::Mapper3dConfig configOf(const Map3dOptions& options) {
 
 std::vector<std::pair<std::string, std::string>> factsOf(const Map3dOptions& options,
                                                          const interfaces::RgbdFolder& folder, const Map3dRun& run,
-                                                         double path_length_m) {
-  std::vector<std::pair<std::string, std::string>> facts{{"format", folder.listing().format},
+                                                         const Map3dTrust& trust, double path_length_m) {
+  std::vector<std::pair<std::string, std::string>> facts{{"trusted", trust.reason.empty() ? "yes" : "no"},
+                                                         {"format", folder.listing().format},
                                                          {"frames", fmt::format("{}", run.frames)},
                                                          {"skipped", fmt::format("{}", folder.skipped())}};
   if (!run.given.empty()) facts.emplace_back("with a pose", fmt::format("{}", run.with_pose));
   facts.insert(facts.end(), {{"lost", fmt::format("{}", run.lost)},
+                             {"pieces", fmt::format("{}", run.pieces().size())},
                              {"key frames", fmt::format("{}", run.key_frames)},
                              {"loop closures", fmt::format("{}", run.loops)},
                              {"path length", fmt::format("{:.2f} m", path_length_m)},
@@ -332,7 +375,8 @@ int map3d(const Map3dOptions& options) {
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
   requireInReach(options, run.given, folder, run.config.voxels);
   mapFolder(folder, options, run);
-  Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run), run.milliseconds, run.disagreement};
+  const Map3dTrust trust = map3dTrust(run);
+  Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run, trust), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
     throw common::InputError({options.folder}, "",
@@ -340,20 +384,23 @@ int map3d(const Map3dOptions& options) {
                                              plural(folder.listing().pairs.size(), "frame", "frames")),
                              map3dRemedy(folder, run));
   }
-  const common::Trajectory trajectory = trajectoryOf(run, RecordedCamera(folder.calibration()));
-  const double path_length_m = pathLength_m(trajectory);
-  if (!options.mesh.empty()) writeSurface(options, folder.listing(), results, run, shown.warnings);
-  shown.facts = factsOf(options, folder, run, path_length_m);
-  const std::vector<common::Submap3d> submaps = run.mapper.submaps();
+  const std::vector<MapPiece> pieces = run.pieces();
+  std::vector<common::Trajectory> trajectories;
+  for (const MapPiece& piece : pieces)
+    trajectories.push_back(stretched(trajectoryOf(run, piece, RecordedCamera(folder.calibration())), rate_Hz));
+  const double path_length_m = pathLength_m(trajectories.front());
+  if (!options.mesh.empty()) writeSurface(options, folder.listing(), results, pieces.front(), run, shown.warnings);
+  shown.facts = factsOf(options, folder, run, trust, path_length_m);
+  const std::vector<common::Submap3d> submaps = submapsOf(run, pieces.front());
   if (areVoxelsMissing(submaps, run.config.voxels))
     shown.warnings.emplace_back("map.bt is not complete: it would need too much memory at this --resolution");
   ProgressLine line(options.json);
   line.update("100 %  making the cloud, the octree and the report", run.wall_s);
-  writeMap3dOutputs(results.unfinished(), stretched(trajectory, rate_Hz), resultsOf(run, submaps), shown);
+  writeMap3dOutputs(results.unfinished(), trajectories, resultsOf(run, pieces.front(), submaps), shown);
   results.publish();
   line.close();
   if (options.json) {
-    const auto figures = figuresOf(options, folder, run, path_length_m, shown.warnings, results.path());
+    const auto figures = figuresOf(options, folder, run, trust, path_length_m, shown.warnings, results.path());
     showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return kDone;
   }
@@ -393,6 +440,8 @@ void addMap3d(Command& program) {
   command.footer(
       "trajectory.tum has the poses of the camera with x right, y down and z along the view, as the ground truth of\n"
       "both formats has them; the map begins at the first pose of the colour camera, or is in the world of --poses.\n"
+      "Where a lost camera began pieces of the map that nothing connects to it, pieces.txt has the poses of all "
+      "pieces.\n"
       "Example: swiftlet map3d rgbd_dataset_freiburg1_desk --out desk");
   command.runs([options] { return map3d(*options); });
 }

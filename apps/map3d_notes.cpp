@@ -18,8 +18,6 @@ using interfaces::RgbdFolder;
 
 /// With poses for a smaller part of the frames, their times are probably from another clock.
 constexpr double kFewPoses = 0.5;
-/// A map of which more than this part was lost is probably not one map.
-constexpr double kMostLost = 0.1;
 /// No camera pauses longer within one recording.
 constexpr double kLongGap_s = 10.0;
 
@@ -29,25 +27,21 @@ std::string depthQuestion(const RgbdFolder& folder, const Map3dRun& run) {
                      run.medianDepth_m(), folder.calibration().depth_units_per_m);
 }
 
-void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, std::vector<std::string>& notes) {
-  if (run.before > 0)
-    notes.push_back(fmt::format("the map begins after {}: what they show was not seen again",
-                                plural(run.before, "frame", "frames")));
-  if (run.lost == 0) return;
-  if (static_cast<double>(run.lost) > kMostLost * static_cast<double>(run.frames - run.before)) {
-    notes.emplace_back("the map is probably wrong: much of the track was lost");
-    notes.push_back(depthQuestion(folder, run));
-  }
-  notes.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
-                              plural(run.found_again, "time", "times")));
+void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust,
+                 std::vector<std::string>& notes) {
+  if (!trust.reason.empty()) notes.push_back("the map is probably wrong: " + trust.reason);
+  if (trust.is_much_missing) notes.push_back(depthQuestion(folder, run));
+  const auto pieces = run.pieces();
+  if (pieces.size() > 1)
+    notes.push_back(fmt::format("{} in {} that nothing connects to the map: pieces.txt has their poses",
+                                plural(run.tracked.size() - pieces.front().frames.size(), "frame is", "frames are"),
+                                plural(pieces.size() - 1, "piece", "pieces")));
+  if (run.lost > 0)
+    notes.push_back(fmt::format("the track was lost for {} and found again {}", plural(run.lost, "frame", "frames"),
+                                plural(run.found_again, "time", "times")));
 }
 
 void noteOnFocalLength(const Map3dRun& run, std::vector<std::string>& notes) {
-  if (const auto factor = run.mapper.betterFocalFactor())
-    notes.push_back(fmt::format(
-        "the map is probably wrong: the frames fit each other better with {:.2f} times the focal length; check the "
-        "calibration (--intrinsics)",
-        *factor));
   if (run.frames > 0 && !run.mapper.isFocalLengthChecked())
     notes.emplace_back("the focal length could not be checked: too few views of the same place could be compared");
 }
@@ -127,9 +121,9 @@ std::string remedyOf(FrameFault fault, const RgbdFolder& folder) {
 
 }  // namespace
 
-std::vector<std::string> map3dNotes(const RgbdFolder& folder, const Map3dRun& run) {
+std::vector<std::string> map3dNotes(const RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust) {
   std::vector<std::string> notes;
-  noteOnTrack(folder, run, notes);
+  noteOnTrack(folder, run, trust, notes);
   noteOnFocalLength(run, notes);
   noteOnPoses(folder, run, notes);
   noteOnStamps(folder, notes);

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "apps/map3d_run.hpp"
+#include "apps/map3d_trust.hpp"
 #include "interfaces/rgbd/rgbd_folder.hpp"
 
 namespace swiftlet::apps {
 
 /// For people; empty if nothing is odd.
-std::vector<std::string> map3dNotes(const interfaces::RgbdFolder& folder, const Map3dRun& run);
+std::vector<std::string> map3dNotes(const interfaces::RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust);
 
 /// What to do about a recording of which no frame was tracked.
 std::string map3dRemedy(const interfaces::RgbdFolder& folder, const Map3dRun& run);

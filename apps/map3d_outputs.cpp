@@ -27,6 +27,16 @@ std::string plotOverFrames(const std::string& title, const std::string& label, c
   return rendering::plotSvg(plot);
 }
 
+std::string piecesText(const std::vector<common::Trajectory>& pieces) {
+  std::string text = "# t x y z qx qy qz qw piece: piece 1 is the map; nothing says how the others lie to it\n";
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const common::StampedPose& at : pieces[i]) {
+      text += interfaces::toTumLine(at);
+      text.insert(text.size() - 1, " " + std::to_string(i + 1));
+    }
+  return text;
+}
+
 /// The three coordinates over time.
 std::string positionPlot(const common::Trajectory& trajectory) {
   rendering::Plot plot;
@@ -63,10 +73,12 @@ std::string pictureOf(const Map3dMap& map, const common::Trajectory& trajectory)
 
 }  // namespace
 
-void writeMap3dOutputs(const fs::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
+void writeMap3dOutputs(const fs::path& out, const std::vector<common::Trajectory>& pieces, const Map3dMap& map,
                        const Map3dFigures& figures) {
+  const common::Trajectory& trajectory = pieces.front();
   auto writer = required(interfaces::TumWriter::create(out / "trajectory.tum"));
   for (const common::StampedPose& at : trajectory) required(writer.write(at));
+  if (pieces.size() > 1) required(interfaces::writeAtomically(out / "pieces.txt", piecesText(pieces)));
   required(interfaces::writeCloud(out / "cloud.ply", map.cloud));
   required(interfaces::writeOctree(out / "map.bt", map.voxels));
 

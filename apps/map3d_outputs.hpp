@@ -1,4 +1,5 @@
-// The results of `swiftlet map3d`: trajectory.tum, cloud.ply, map.bt and report.html.
+// The results of `swiftlet map3d`: trajectory.tum, cloud.ply, map.bt and report.html; pieces.txt where the map is not
+// all.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ inline const ResultsKind kMap3dResults{
     "3D map",
     "report.html",
     "<title>" + kMap3dTitle,
-    {"report.html", "trajectory.tum", "cloud.ply", "map.bt", "mesh.ply", "mesh.obj"}};
+    {"report.html", "trajectory.tum", "pieces.txt", "cloud.ply", "map.bt", "mesh.ply", "mesh.obj"}};
 
 /// In the frame of the trajectory.
 struct Map3dMap {
@@ -36,9 +37,10 @@ struct Map3dFigures {
   rendering::ThinnedCurve disagreement;
 };
 
-/// `trajectory` has the poses of the recorder's camera (axes of image processing) in the frame of the map. Throws
-/// InputError if a file cannot be written.
-void writeMap3dOutputs(const std::filesystem::path& out, const common::Trajectory& trajectory, const Map3dMap& map,
-                       const Map3dFigures& figures);
+/// `pieces` has the poses of the recorder's camera (axes of image processing), first those of the map in its frame,
+/// then those of other pieces, each in a frame of its own: pieces.txt has a line `t x y z qx qy qz qw piece` for each.
+/// Throws InputError if a file cannot be written.
+void writeMap3dOutputs(const std::filesystem::path& out, const std::vector<common::Trajectory>& pieces,
+                       const Map3dMap& map, const Map3dFigures& figures);
 
 }  // namespace swiftlet::apps

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/trajectory.hpp"
@@ -27,6 +29,12 @@ struct WorldAnchor {
   common::Pose3 T_world_camera;
 };
 
+/// The frames of a piece of the map, in the order of their stamps.
+struct MapPiece {
+  int number = 0;  ///< See Mapper3d::pieceOf.
+  std::vector<TrackedFrame> frames;
+};
+
 struct Map3dRun {
   explicit Map3dRun(const mapping3d::Mapper3dConfig& mapper_config) : config(mapper_config), mapper(config) {}
 
@@ -41,35 +49,29 @@ struct Map3dRun {
   std::vector<double> frame_ms;
   std::vector<double> depths_m;  ///< Median depths of some of the frames.
   std::uint64_t frames = 0, lost = 0, found_again = 0, key_frames = 0, loops = 0;
-  std::uint64_t lost_in_a_row = 0;  ///< Up to the newest frame.
-  std::uint64_t before = 0;         ///< Frames before the one that the map begins with.
-  std::size_t triangles = 0;        ///< Of the mesh; 0 if none was made.
+  std::uint64_t doubted = 0;  ///< Of the lost ones: frames just before a loss, whose poses nothing confirmed.
+  std::size_t triangles = 0;  ///< Of the mesh; 0 if none was made.
   double wall_s = 0.0;
 
-  /// Whether the few frames tracked so far are of a place that the camera does not come back to, at this time.
-  bool isFalseStart(common::Time now) const {
-    if (!given.empty() || tracked.empty() || lost_in_a_row < kFalseStartFrames) return false;
-    const double lost_s = (now - tracked.back().stamp).seconds();
-    const double tracked_s = (tracked.back().stamp - tracked.front().stamp).seconds();
-    return lost_s >= kFalseStart_s && lost_s >= kFalseStartRatio * tracked_s;
-  }
-
-  /// Forgets the map; the next frame begins another.
-  void beginAnew() {
-    mapper = mapping3d::Mapper3d(config);
-    tracked.clear();
-    before = frames;
-    lost = lost_in_a_row = found_again = key_frames = loops = 0;
+  /// The one with the most frames first, which is the map; of equal ones the older.
+  std::vector<MapPiece> pieces() const {
+    std::map<int, MapPiece> by_number;
+    for (const TrackedFrame& frame : tracked) {
+      MapPiece& piece = by_number[mapper.pieceOf(frame.scan)];
+      piece.number = mapper.pieceOf(frame.scan);
+      piece.frames.push_back(frame);
+    }
+    std::vector<MapPiece> pieces;
+    for (auto& [number, piece] : by_number) pieces.push_back(std::move(piece));
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [](const MapPiece& a, const MapPiece& b) { return a.frames.size() > b.frames.size(); });
+    return pieces;
   }
 
   double medianMs() const { return medianOf(frame_ms); }
   double medianDepth_m() const { return medianOf(depths_m); }
 
  private:
-  static constexpr std::uint64_t kFalseStartFrames = 15;
-  static constexpr double kFalseStart_s = 3.0;
-  static constexpr double kFalseStartRatio = 3.0;  ///< Lost this many times longer than it was tracked.
-
   /// 0 of an empty list.
   static double medianOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());

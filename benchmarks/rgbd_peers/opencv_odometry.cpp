@@ -12,7 +12,7 @@ class OpencvOdometry final : public Peer {
  public:
   explicit OpencvOdometry(const std::string& kind) : odometry_(cv::rgbd::Odometry::create(kind)) {}
 
-  bool add(const common::RgbdFrame&, const mapping3d::PyramidLevel& small) override {
+  void add(const RecordedFrame&, const mapping3d::PyramidLevel& small) override {
     const common::PinholeCamera& camera = small.camera;
     odometry_->setCameraMatrix(
         (cv::Mat_<double>(3, 3) << camera.fx_px, 0.0, camera.cx_px, 0.0, camera.fy_px, camera.cy_px, 0.0, 0.0, 1.0));
@@ -21,15 +21,15 @@ class OpencvOdometry final : public Peer {
     auto frame = cv::rgbd::OdometryFrame::create(gray.clone(), depth.clone());
     cv::Mat T_new_last;
     const bool placed = !last_ || odometry_->compute(last_, frame, T_new_last);
+    poses_.emplace_back();
     // A frame that was not placed is passed over: the next one is compared with the last that was.
-    if (!placed) return false;
+    if (!placed) return;
     if (last_) T_map_optical_ = T_map_optical_ * poseOf(T_new_last).inverse();
     last_ = frame;
-    poses_.push_back(interfaces::T_camera_optical() * T_map_optical_ * interfaces::T_camera_optical().inverse());
-    return true;
+    poses_.back() = interfaces::T_camera_optical() * T_map_optical_ * interfaces::T_camera_optical().inverse();
   }
 
-  std::vector<common::Pose3> finish() override { return poses_; }
+  std::vector<std::optional<common::Pose3>> finish() override { return poses_; }
 
  private:
   static common::Pose3 poseOf(const cv::Mat& matrix) {
@@ -45,7 +45,7 @@ class OpencvOdometry final : public Peer {
   cv::Ptr<cv::rgbd::Odometry> odometry_;
   cv::Ptr<cv::rgbd::OdometryFrame> last_;
   common::Pose3 T_map_optical_;
-  std::vector<common::Pose3> poses_;
+  std::vector<std::optional<common::Pose3>> poses_;
 };
 
 }  // namespace

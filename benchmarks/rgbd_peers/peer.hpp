@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,18 @@
 
 namespace swiftlet::rgbd_peers {
 
+struct RecordedFrame {
+  const common::RgbdFrame& frame;
+  common::Duration depth_later;  ///< From the colour image to the depth image.
+};
+
 class Peer {
  public:
   virtual ~Peer() = default;
-  /// `small` is the frame at 320 pixels of width, for methods that do not halve their pictures themselves. False if it
-  /// could not be placed.
-  virtual bool add(const common::RgbdFrame& frame, const mapping3d::PyramidLevel& small) = 0;
-  /// Of the frames that add() returned true for, in their order, with all corrections; axes of `camera`.
-  virtual std::vector<common::Pose3> finish() = 0;
+  /// `small` is the frame at 320 pixels of width, for methods that do not halve their pictures themselves.
+  virtual void add(const RecordedFrame& recorded, const mapping3d::PyramidLevel& small) = 0;
+  /// Of all frames, in their order, with all corrections; axes of `camera`. nullopt of those that are lost.
+  virtual std::vector<std::optional<common::Pose3>> finish() = 0;
 };
 
 struct Contender {

@@ -1,14 +1,18 @@
-// benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--only PART]
+// benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--every N] [--only PART]
 //
 // On one recorded RGB-D folder with a reference (TUM: groundtruth.txt; 7-Scenes: the pose files), in one run and by one
-// metric: our odometry, our map with loop closures, and, where OpenCV is installed, its three odometries. All on one
-// thread, on the same frames: without distortion, the depth registered. OpenCV is given them at 320 pixels of width;
-// ours halves the recorded pictures itself, which is in its time.
+// metric: our odometry, our map with pieces and loop closures, and, where OpenCV is installed, its three odometries and
+// corners of it. All on one thread, on every N-th frame: without distortion, the depth registered. OpenCV is given them
+// at 320 pixels of width; ours halves the recorded pictures itself, which is in its time. A frame is lost if it has no
+// pose, or if it is in another piece of the map than most frames.
 #include <ctime>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,39 +36,50 @@ using namespace swiftlet;
 using common::Pose3;
 using rgbd_peers::Contender;
 using rgbd_peers::Peer;
+using rgbd_peers::RecordedFrame;
 
 class OurOdometry final : public Peer {
  public:
-  bool add(const common::RgbdFrame& frame, const mapping3d::PyramidLevel&) override {
-    const mapping3d::RgbdPose pose = odometry_.process(frame);
-    if (pose.isTracked()) poses_.push_back(pose.T_map_camera);
-    return pose.isTracked();
+  void add(const RecordedFrame& recorded, const mapping3d::PyramidLevel&) override {
+    const mapping3d::RgbdPose pose = odometry_.process(recorded.frame, std::nullopt, recorded.depth_later);
+    poses_.push_back(pose.isTracked() ? std::optional(pose.T_map_camera) : std::nullopt);
   }
-  std::vector<Pose3> finish() override { return poses_; }
+  std::vector<std::optional<Pose3>> finish() override { return poses_; }
 
  private:
-  mapping3d::RgbdOdometry odometry_{{}};
-  std::vector<Pose3> poses_;
+  mapping3d::RgbdOdometry odometry_{mapping3d::RgbdOdometryConfig()};
+  std::vector<std::optional<Pose3>> poses_;
 };
 
 /// Submaps are drawn too, which is in its time.
 class OurMap final : public Peer {
  public:
-  bool add(const common::RgbdFrame& frame, const mapping3d::PyramidLevel&) override {
-    const mapping3d::MappedFrame mapped = mapper_.add(frame, {});
-    if (mapped.pose.isTracked()) frames_.push_back({mapped.pose.scan, mapped.T_scan_camera});
-    return mapped.pose.isTracked();
+  void add(const RecordedFrame& recorded, const mapping3d::PyramidLevel&) override {
+    const mapping3d::MappedFrame mapped =
+        mapper_.add(recorded.frame, {std::nullopt, nullptr, {}, recorded.depth_later});
+    if (mapped.begun) frames_.back() = {mapped.begun->scan, Pose3()};
+    for (int i = 0; i < mapped.pose.doubted; ++i) frames_[frames_.size() - 1 - static_cast<std::size_t>(i)].reset();
+    frames_.emplace_back();
+    if (mapped.pose.isTracked()) frames_.back() = {mapped.pose.scan, mapped.T_scan_camera};
   }
-  std::vector<Pose3> finish() override {
-    std::vector<Pose3> poses;
-    for (const auto& [scan, T_scan_camera] : frames_)
-      poses.push_back(mapper_.scans()->T_map_level(scan) * T_scan_camera);
+  std::vector<std::optional<Pose3>> finish() override {
+    std::map<int, int> frames_of;
+    for (const auto& frame : frames_)
+      if (frame) ++frames_of[mapper_.pieceOf(frame->first)];
+    const auto most = std::max_element(frames_of.begin(), frames_of.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    std::vector<std::optional<Pose3>> poses;
+    for (const auto& frame : frames_) {
+      poses.emplace_back();
+      if (frame && mapper_.pieceOf(frame->first) == most->first)
+        poses.back() = mapper_.scans()->T_map_level(frame->first) * frame->second;
+    }
     return poses;
   }
 
  private:
-  mapping3d::Mapper3d mapper_{mapping3d::Mapper3dConfig()};
-  std::vector<std::pair<int, Pose3>> frames_;
+  mapping3d::Mapper3d mapper_{mapping3d::configOfRecordings()};
+  std::vector<std::optional<std::pair<int, Pose3>>> frames_;
 };
 
 /// Of the process, so that what else the machine does is not counted.
@@ -77,6 +92,7 @@ double processorSeconds() {
 struct Options {
   std::string folder, intrinsics, only;
   bool freiburg1 = false;
+  int every = 1;  ///< One frame in this many is taken.
 };
 
 struct Result {
@@ -91,18 +107,17 @@ Result run(Peer& peer, const Options& options) {
   interfaces::RgbdFolder folder(std::move(listing));
   const Pose3 T_camera_recorded = interfaces::T_camera_optical() * folder.calibration().T_recorded_color().inverse();
   Result result;
-  std::vector<common::Time> stamps;
-  while (const auto frame = folder.next()) {
+  for (int i = 0; const auto frame = folder.next(); ++i) {
+    if (i % options.every != 0) continue;
     result.frames.push_back(frame->stamps.measured);
     const mapping3d::FramePyramid small = mapping3d::makePyramid(*frame, 1);
     const double begin_s = processorSeconds();
-    const bool placed = peer.add(*frame, small.front());
+    peer.add({*frame, folder.depthLater()}, small.front());
     result.milliseconds.push_back(1e3 * (processorSeconds() - begin_s));
-    if (placed) stamps.push_back(frame->stamps.measured);
   }
-  const std::vector<Pose3> poses = peer.finish();
-  for (std::size_t i = 0; i < stamps.size(); ++i)
-    result.trajectory.push_back({stamps[i], poses[i] * T_camera_recorded});
+  const auto poses = peer.finish();
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (poses[i]) result.trajectory.push_back({result.frames[i], *poses[i] * T_camera_recorded});
   return result;
 }
 
@@ -170,6 +185,7 @@ void compare(const Options& options) {
       {"ours, map with loops", [] { return std::make_unique<OurMap>(); }},
   };
   std::ranges::move(rgbd_peers::opencvContenders(), std::back_inserter(contenders));
+  std::ranges::move(rgbd_peers::orbPnpContenders(), std::back_inserter(contenders));
   const common::Trajectory reference = test_support::recordedReference(options.folder);
   common::Table table{"",
                       {"", "lost", "offset ms", "median ms", "p99 ms", "ATE mm", "frame mm", "rms", "frame deg", "rms",
@@ -193,6 +209,8 @@ Options parse(int argc, char** argv) {
       options.freiburg1 = true;
     else if (word == "--intrinsics" && i + 1 < argc)
       options.intrinsics = argv[++i];
+    else if (word == "--every" && i + 1 < argc)
+      options.every = std::max(1, std::atoi(argv[++i]));
     else if (word == "--only" && i + 1 < argc)
       options.only = argv[++i];
     else
@@ -206,7 +224,8 @@ Options parse(int argc, char** argv) {
 int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
   if (options.folder.empty()) {
-    std::fprintf(stderr, "usage: benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--only PART]\n");
+    std::fprintf(stderr,
+                 "usage: benchmark_rgbd_peers FOLDER [--intrinsics FILE] [--freiburg1] [--every N] [--only PART]\n");
     return 2;
   }
   try {

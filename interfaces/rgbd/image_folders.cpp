@@ -107,7 +107,8 @@ void pairByTime(const std::map<Time, fs::path>& colors, const std::map<Time, fs:
   };
   const std::vector<Time> color_stamps = stampsOf(colors), depth_stamps = stampsOf(depths);
   for (const auto& [color, depth] : pairsOf(color_stamps, depth_stamps))
-    listing.pairs.push_back({color_stamps[color], colors.at(color_stamps[color]), depths.at(depth_stamps[depth])});
+    listing.pairs.push_back({color_stamps[color], colors.at(color_stamps[color]), depths.at(depth_stamps[depth]), 0, 0,
+                             depth_stamps[depth] - color_stamps[color]});
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
 }
 

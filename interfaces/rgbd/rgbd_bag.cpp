@@ -217,7 +217,8 @@ RgbdListing listRgbdBag(const fs::path& file) {
   };
   for (const auto& [color, depth] : best->pairs)
     listing.pairs.push_back({best->color->stamps[colors[color]], nameOf(*best->color, colors[color]),
-                             nameOf(*best->depth, depths[depth]), colors[color], depths[depth]});
+                             nameOf(*best->depth, depths[depth]), colors[color], depths[depth],
+                             best->depth->stamps[depths[depth]] - best->color->stamps[colors[color]]});
   listing.unpaired = colors.size() + depths.size() - 2 * listing.pairs.size();
   return listing;
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/rgbd_frame.hpp"
+#include "common/time.hpp"
 #include "interfaces/rgbd/rgbd_listing.hpp"
 
 namespace swiftlet::interfaces {
@@ -47,6 +48,8 @@ class RgbdFolder {
   /// The next usable frame, in the order of the stamps; nullopt at the end.
   std::optional<common::RgbdFrame> next();
 
+  /// By how much the depth of the newest frame was taken later than its colour, whose time is the frame's.
+  common::Duration depthLater() const { return at_ > 0 ? listing_.pairs[at_ - 1].depth_later : common::Duration(); }
   const RgbdListing& listing() const { return listing_; }
   const RgbdCalibration& calibration() const { return listing_.calibration; }
   /// Pairs passed so far, skipped ones included.

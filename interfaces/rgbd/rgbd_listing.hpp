@@ -25,6 +25,7 @@ struct RgbdListing {
     /// The files of the images. Of a bag, the names of the messages, whose numbers in their topics follow.
     std::filesystem::path color, depth;
     std::size_t color_message = 0, depth_message = 0;
+    common::Duration depth_later = {};  ///< From the colour image to the depth image.
   };
 
   std::string format;           ///< For people: "TUM RGB-D".

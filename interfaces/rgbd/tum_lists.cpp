@@ -85,7 +85,7 @@ Unpaired readAssociations(const fs::path& folder, RgbdListing& listing) {
       continue;
     }
     const StampedFile &color = depth_first ? second : first, &depth = depth_first ? first : second;
-    listing.pairs.push_back({color.stamp, color.file, depth.file});
+    listing.pairs.push_back({color.stamp, color.file, depth.file, 0, 0, depth.stamp - color.stamp});
   }
   std::stable_sort(listing.pairs.begin(), listing.pairs.end(),
                    [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
@@ -103,7 +103,8 @@ Unpaired readTwoLists(const fs::path& folder, RgbdListing& listing) {
   const std::vector<StampedFile> colors = readList(folder, "rgb.txt"), depths = readList(folder, "depth.txt");
   const std::vector<Time> color_stamps = stampsOf(colors), depth_stamps = stampsOf(depths);
   for (const auto& [color, depth] : pairsOf(color_stamps, depth_stamps))
-    listing.pairs.push_back({colors[color].stamp, colors[color].file, depths[depth].file});
+    listing.pairs.push_back({colors[color].stamp, colors[color].file, depths[depth].file, 0, 0,
+                             depths[depth].stamp - colors[color].stamp});
   listing.unpaired += colors.size() + depths.size() - 2 * listing.pairs.size();
   return {nearestPair_s(color_stamps, depth_stamps), common::medianStep_s(colors, stampOf)};
 }
@@ -125,7 +126,7 @@ void takeNumbersAsFrames(RgbdListing& listing) {
   if (!areNumbered(listing.pairs)) return;
   listing.stamps_per_s = kNumberedFrames_Hz;
   for (RgbdListing::Pair& pair : listing.pairs)
-    pair.stamp = Time::fromSeconds(pair.stamp.seconds() / kNumberedFrames_Hz);
+    pair = {Time::fromSeconds(pair.stamp.seconds() / kNumberedFrames_Hz), pair.color, pair.depth};
 }
 
 }  // namespace

@@ -57,15 +57,18 @@ void ModelIcp::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
   if (isInMap(last_->seed)) last_->seed->T_map_camera = moved(last_->scan) * last_->seed->T_map_camera;
 }
 
-void ModelIcp::hangNewestOn(int scan) {
-  keys_.hangNewestOn(scan);
+void ModelIcp::hang(std::size_t key, int scan) {
+  keys_.hang(key, scan);
   model_.hangOn(scan, frames_);
   adjusted_.back().scan = last_->scan = scan;
 }
 
-RgbdPose ModelIcp::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed) {
+/// Its landmarks are corners, whose depth is taken as it is.
+RgbdPose ModelIcp::process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed,
+                           common::Duration /*depth_later*/) {
   ++frames_;
-  const FramePyramid pyramid = makePyramid(frame);
+  pyramid_ = makePyramid(frame);
+  const FramePyramid& pyramid = pyramid_;
   const PyramidLevel& finest = pyramid.front();
   Features features = vision::findFeatures(finest.gray, finest.depth, finest.camera, features_);  // Line 1.
   RgbdPose pose;

@@ -31,9 +31,12 @@ class ModelIcp final : public FrameOdometry {
 
   void moveTo(std::shared_ptr<const common::KeyPoses> scans) override;
   /// The first frame with enough features places the map; those before it are lost.
-  RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt) override;
-  void hangNewestOn(int scan) override;
+  RgbdPose process(const common::RgbdFrame& frame, const std::optional<CameraSeed>& seed = std::nullopt,
+                   common::Duration depth_later = {}) override;
+  void hang(std::size_t key, int scan) override;
+  void joinTracks(int from, int into) override { keys_.joinTracks(from, into); }
   const KeyFrameMap& keyFrames() const override { return keys_; }
+  const FramePyramid& pyramid() const override { return pyramid_; }
   const LandmarkModel& landmarks() const { return model_; }
 
  private:
@@ -73,6 +76,7 @@ class ModelIcp final : public FrameOdometry {
   std::deque<Adjusted> adjusted_;  ///< The newest key frames, the oldest of them first.
   std::shared_ptr<const common::KeyPoses> scans_;
   std::optional<LastFrame> last_;
+  FramePyramid pyramid_;
   int tracks_ = 0;        ///< How often the model restarted.
   int unfit_frames_ = 0;  ///< Number of consecutive ones up to the last frame; while there are any it is lost.
   std::uint64_t frames_ = 0;

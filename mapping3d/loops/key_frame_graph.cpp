@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -20,6 +21,11 @@ constexpr double kEdgeSigma_m = 0.01, kEdgeSigma_rad = 0.005;
 /// Errors that alignments gather over a metre of steps and over a radian of turns; they grow with the roots of both, as
 /// a random walk does (docs/decisions/mapping3d.md#040).
 constexpr double kWalk_m = 0.03, kWalk_rad = 0.05;
+/// Key frames whose poses are adjusted when a new one is added; they span some metres.
+constexpr int kAdjusted = 12;
+/// Two meetings of the same pieces agree if they place one in the other within this: as far as key frames of a piece
+/// drift against each other before the piece is joined.
+constexpr double kAgree_m = 0.3, kAgree_rad = 0.1;
 /// Further differences of a loop closure from the path that are accepted: of its position, as a share of the path's
 /// length, and of its attitude, as a share of all turns along the path.
 constexpr double kDriftShare = 0.05, kDriftTurnShare = 0.05;
@@ -36,13 +42,10 @@ struct Neighbour {
   Pose3 step;
 };
 
-}  // namespace
-
-KeyFrameGraph::KeyFrameGraph(const KeyFrameGraphConfig& config)
-    : config_(config), poses_(std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}})) {}
-
-/// The graph's error has half the rotation vector, see optimization::PoseEdge3D.
-optimization::PoseEdge3D KeyFrameGraph::edgeOf(const KeyFrameEdge& edge, int to, bool robust) const {
+/// The graph's error has half the rotation vector, see optimization::PoseEdge3D. So many edges with errors that are
+/// alike count as one.
+optimization::PoseEdge3D edgeOf(const KeyFrameEdge& edge, int to, bool robust, std::size_t edges = 1) {
+  const auto alike = static_cast<double>(edges);
   Matrix6d covariance = edge.information.inverse();
   covariance.diagonal().head<3>().array() +=
       kEdgeSigma_m * kEdgeSigma_m + kWalk_m * kWalk_m * edge.T_from_to.position_m.norm();
@@ -50,10 +53,15 @@ optimization::PoseEdge3D KeyFrameGraph::edgeOf(const KeyFrameEdge& edge, int to,
       kEdgeSigma_rad * kEdgeSigma_rad + kWalk_rad * kWalk_rad * turnOf_rad(edge.T_from_to);
   Eigen::Matrix<double, 6, 1> unit;
   unit << 1.0, 1.0, 1.0, 0.5, 0.5, 0.5;
-  covariance = (unit.asDiagonal() * covariance * unit.asDiagonal()).eval();
+  covariance = (alike * unit.asDiagonal() * covariance * unit.asDiagonal()).eval();
   const Matrix6d information = covariance.inverse();
   return {edge.from, to, edge.T_from_to, 0.5 * (information + information.transpose()), robust};
 }
+
+}  // namespace
+
+KeyFrameGraph::KeyFrameGraph(const KeyFrameGraphConfig& config)
+    : config_(config), poses_(std::make_shared<const common::KeyPoses>(common::KeyPoses{1, {common::KeyPose{}}})) {}
 
 void KeyFrameGraph::beginAt(const Pose3& T_map_key) {
   SWIFTLET_CHECK(graph_.poses.empty());
@@ -65,7 +73,8 @@ int KeyFrameGraph::add(common::Time stamp, const Pose3& T_map_key, std::span<con
   const auto number = static_cast<int>(graph_.poses.size());
   graph_.poses.push_back(T_map_key);
   stamps_.push_back(stamp);
-  for (const KeyFrameEdge& edge : edges) graph_.edges.push_back(edgeOf(edge, number, false));
+  pieces_.push_back(edges.empty() ? begun_++ : pieceOf(edges.front().from));
+  for (const KeyFrameEdge& edge : edges) graph_.edges.push_back(edgeOf(edge, number, false, edges.size()));
   publish();
   return number;
 }
@@ -130,6 +139,30 @@ int KeyFrameGraph::takeOutUnconfirmed(const std::vector<double>& squared_errors,
   return of_new;
 }
 
+void KeyFrameGraph::adjustNewest() {
+  const int first = std::max(0, static_cast<int>(graph_.poses.size()) - kAdjusted);
+  std::map<int, int> local;  // Their numbers in the part that is adjusted.
+  optimization::PoseGraph3D part;
+  part.fixed.clear();
+  const auto numberOf = [&](int node) {
+    const auto [known, is_new] = local.emplace(node, static_cast<int>(part.poses.size()));
+    if (is_new) part.poses.push_back(graph_.poses[at(node)]);
+    if (is_new && node < first) part.fixed.push_back(known->second);
+    return known->second;
+  };
+  for (const optimization::PoseEdge3D& edge : graph_.edges) {
+    if (edge.from < first && edge.to < first) continue;
+    part.edges.push_back(edge);
+    part.edges.back().from = numberOf(edge.from);
+    part.edges.back().to = numberOf(edge.to);
+  }
+  if (part.edges.size() < part.poses.size()) return;  // A chain fulfils all of its edges already.
+  const auto solution = optimization::optimize(part, config_.optimization);
+  for (const auto& [node, number] : local)
+    if (node >= first) graph_.poses[at(node)] = solution.poses[at(number)];
+  publish();
+}
+
 int KeyFrameGraph::close(std::span<const KeyFrameEdge> loops) {
   const int newest = static_cast<int>(graph_.poses.size()) - 1;
   const std::size_t first_new = graph_.edges.size();
@@ -139,6 +172,11 @@ int KeyFrameGraph::close(std::span<const KeyFrameEdge> loops) {
     if (allows(newest, loop)) allowed.push_back(edgeOf(loop, newest, true));
   rejected_ += static_cast<int>(loops.size() - allowed.size());
   graph_.edges.insert(graph_.edges.end(), allowed.begin(), allowed.end());
+  return optimizeWith(first_new);
+}
+
+/// Returns how many of the edges from `first_new` on were kept.
+int KeyFrameGraph::optimizeWith(std::size_t first_new) {
   const std::size_t all = graph_.edges.size();
   if (all == first_new) return 0;
   loops_ += static_cast<int>(all - first_new);
@@ -148,6 +186,56 @@ int KeyFrameGraph::close(std::span<const KeyFrameEdge> loops) {
   graph_.poses = std::move(solution.poses);
   publish();
   return kept;
+}
+
+/// The newer piece becomes a part of the older one.
+JoinedPieces KeyFrameGraph::piecesOf(const Meeting& meeting) const {
+  const int a = pieceOf(meeting.edge.from), b = pieceOf(meeting.to);
+  return {std::max(a, b), std::min(a, b)};
+}
+
+/// By how much the newer of its pieces moves.
+Pose3 KeyFrameGraph::T_into_from(const Meeting& meeting) const {
+  const Pose3 T_moved =
+      graph_.poses[at(meeting.edge.from)] * meeting.edge.T_from_to * graph_.poses[at(meeting.to)].inverse();
+  return pieceOf(meeting.to) == piecesOf(meeting).from ? T_moved : T_moved.inverse();
+}
+
+/// Compared at the key frame of the newer piece.
+bool KeyFrameGraph::agree(const Meeting& a, const Meeting& b) const {
+  const bool is_to = pieceOf(a.to) == piecesOf(a).from;
+  const Pose3& there = graph_.poses[at(is_to ? a.to : a.edge.from)];
+  const Pose3 by_a = T_into_from(a) * there, by_b = T_into_from(b) * there;
+  return (by_a.position_m - by_b.position_m).norm() <= kAgree_m &&
+         by_a.rotation.angularDistance(by_b.rotation) <= kAgree_rad;
+}
+
+std::optional<JoinedPieces> KeyFrameGraph::join(std::span<const KeyFrameEdge> edges) {
+  const int newest = static_cast<int>(graph_.poses.size()) - 1;
+  for (const KeyFrameEdge& edge : edges) {
+    const Meeting met{edge, newest};
+    const JoinedPieces pieces = piecesOf(met);
+    std::vector<Meeting> agreeing{met};
+    for (const Meeting& other : meetings_) {
+      const JoinedPieces same = piecesOf(other);
+      if (same.from == pieces.from && same.into == pieces.into && agree(met, other)) agreeing.push_back(other);
+    }
+    meetings_.push_back(met);
+    if (agreeing.size() < 2) continue;
+    const Pose3 T_move = T_into_from(met);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (pieces_[i] != pieces.from) continue;
+      graph_.poses[i] = T_move * graph_.poses[i];
+      graph_.poses[i].rotation.normalize();
+      pieces_[i] = pieces.into;
+    }
+    std::erase_if(meetings_, [&](const Meeting& one) { return pieceOf(one.edge.from) == pieceOf(one.to); });
+    const std::size_t first_new = graph_.edges.size();
+    for (const Meeting& one : agreeing) graph_.edges.push_back(edgeOf(one.edge, one.to, true));
+    (void)optimizeWith(first_new);
+    return pieces;
+  }
+  return std::nullopt;
 }
 
 void KeyFrameGraph::publish() {

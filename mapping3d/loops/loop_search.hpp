@@ -9,16 +9,21 @@
 
 namespace swiftlet::mapping3d {
 
-/// The edge by which the track connects a new key frame, which gets this number: from the one that it overlaps most of
-/// those that it was aligned to, an old one only if there is no other; empty for the first. A frame is aligned to all
-/// of its key frames together, so its pose contains no information on the drift between old and new ones; findLoops
-/// measures that.
-std::vector<KeyFrameEdge> trackEdges(const RgbdPose& pose, int number, const KeyFrameMap& keys);
+/// The edges by which the track connects a new key frame, which gets this number: the frame aligned to each of the key
+/// frames alone that it overlaps with, old ones only if there are no others; empty for the first. A pose that is
+/// aligned to several key frames together contains no information on the drift between them.
+std::vector<KeyFrameEdge> trackEdges(const FramePyramid& frame, const RgbdPose& pose, int number,
+                                     const KeyFrameMap& keys, const RgbdOdometryConfig& odometry);
 
-/// Edges from old key frames of `keys` to its newest one, which `frame` became; each key frame's scan is its number in
-/// the graph. Up to `candidates` key frames that look most alike are tried; at 0 no loops are closed. A pure function;
-/// it takes some milliseconds for each candidate.
-std::vector<KeyFrameEdge> findLoops(const common::RgbdFrame& frame, const RgbdPose& pose, const KeyFrameMap& keys,
-                                    const RgbdOdometryConfig& odometry, int candidates);
+/// Alignments of the newest key frame to others that show the same place.
+struct PlaceMatches {
+  std::vector<KeyFrameEdge> loops;     ///< To old key frames of its own piece.
+  std::vector<KeyFrameEdge> meetings;  ///< To those of other pieces. None if two of them contradict each other.
+};
+
+/// The newest of `keys` is `frame`; each key frame's scan is its number in the graph. Up to `candidates` key frames
+/// that look most alike are tried; at 0 none. A pure function; it takes some milliseconds for each candidate.
+PlaceMatches findPlace(const FramePyramid& frame, const RgbdPose& pose, const KeyFrameMap& keys,
+                       const RgbdOdometryConfig& odometry, int candidates);
 
 }  // namespace swiftlet::mapping3d

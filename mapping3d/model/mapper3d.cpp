@@ -48,6 +48,7 @@ void Mapper3dConfig::describe(common::config::Fields& fields) {
 Mapper3dConfig configOfRecordings(RgbdOdometryConfig::Method method) {
   Mapper3dConfig config;
   config.odometry.method = method;
+  config.odometry.begins_pieces = true;
   config.odometry.features.depth_noise.farthest_m = kFarthestOfRecordings_m;
   return config;
 }
@@ -66,38 +67,56 @@ MappedFrame Mapper3d::add(const RgbdFrame& frame, const FrameContext& context) {
   const RgbdFrame masked = mask ? withoutPeople(frame, context.seed->T_map_camera, context.people) : RgbdFrame{};
   const RgbdFrame& still = mask ? masked : frame;
   MappedFrame mapped;
-  mapped.pose = odometry_->process(still, context.seed);
+  mapped.pose = odometry_->process(still, context.seed, context.depth_later);
   const RgbdPose& pose = mapped.pose;
-  if (!context.scans && pose.isTracked()) grow(still, mapped);
+  if (!context.scans && pose.isTracked()) grow(mapped);
   if (pose.isTracked())
-    submaps_.draw({frame, still, pose.T_map_camera, pose.scan, context.people, pose.became_key_frame},
+    submaps_.draw({frame, still, pose.T_map_camera * pose.T_color_depth, pose.scan, context.people,
+                   pose.became_key_frame, context.scans ? 0 : graph_.pieceOf(pose.scan)},
                   context.scans ? *context.scans : *graph_.poses());
   mapped.T_scan_camera = odometry_->keyFrames().T_map_scan(pose.scan).inverse() * pose.T_map_camera;
   return mapped;
 }
 
-void Mapper3d::grow(const RgbdFrame& still, MappedFrame& mapped) {
+/// The lost frame became a key frame, and hangs on no other one.
+void Mapper3d::beginPiece(MappedFrame& mapped) {
   RgbdPose& pose = mapped.pose;
-  if (!pose.aligned_to.empty()) pose.scan = pose.aligned_to.front();
-  if (!pose.became_key_frame) return;
-  const auto number = static_cast<int>(graph_.size());
-  const auto edges = trackEdges(pose, number, odometry_->keyFrames());
-  pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
+  const KeyFrameMap& keys = odometry_->keyFrames();
+  const std::size_t first = keys.size() - (pose.became_key_frame ? 2 : 1);
+  mapped.begun = BegunPiece{keys.at(first).stamp, graph_.add(keys.at(first).stamp, keys.placeOf(first).T_map_key, {})};
   odometry_->moveTo(graph_.poses());
-  odometry_->hangNewestOn(pose.scan);
-  checkFocal(still, pose);
-  const auto loops = findLoops(still, pose, odometry_->keyFrames(), config_.odometry, config_.loop_candidates);
-  if (loops.empty()) return;
-  mapped.loops = graph_.close(loops);
-  odometry_->moveTo(graph_.poses());
-  pose.T_map_camera = odometry_->keyFrames().T_map_scan(pose.scan);
+  odometry_->hang(first, mapped.begun->scan);
+  pose.aligned_to = {mapped.begun->scan};
 }
 
-void Mapper3d::checkFocal(const RgbdFrame& still, const RgbdPose& pose) {
+void Mapper3d::grow(MappedFrame& mapped) {
+  RgbdPose& pose = mapped.pose;
+  if (pose.begins_piece) beginPiece(mapped);
+  if (!pose.aligned_to.empty()) pose.scan = pose.aligned_to.front();
+  if (!pose.became_key_frame) return;
+  const KeyFrameMap& keys = odometry_->keyFrames();
+  const auto number = static_cast<int>(graph_.size());
+  const auto edges = trackEdges(odometry_->pyramid(), pose, number, keys, config_.odometry);
+  pose.scan = graph_.add(pose.stamp, pose.T_map_camera, edges);
+  odometry_->moveTo(graph_.poses());
+  odometry_->hang(keys.size() - 1, pose.scan);
+  checkFocal(pose);
+  graph_.adjustNewest();
+  const PlaceMatches matches = findPlace(odometry_->pyramid(), pose, keys, config_.odometry, config_.loop_candidates);
+  if (!matches.loops.empty()) mapped.loops = graph_.close(matches.loops);
+  if (const auto joined = graph_.join(matches.meetings)) {
+    odometry_->joinTracks(joined->from, joined->into);
+    submaps_.joinPieces(joined->from, joined->into);
+  }
+  odometry_->moveTo(graph_.poses());
+  pose.T_map_camera = keys.T_map_scan(pose.scan);
+}
+
+void Mapper3d::checkFocal(const RgbdPose& pose) {
   const KeyFrameMap& keys = odometry_->keyFrames();
   if (focal_.isDone() || keys.size() < 2) return;
   const std::size_t before = keys.size() - 2;
-  focal_.add(makePyramid(still), pose, keys.at(before), keys.placeOf(before).T_map_key, config_.odometry);
+  focal_.add(odometry_->pyramid(), pose, keys.at(before), keys.placeOf(before).T_map_key, config_.odometry);
 }
 
 }  // namespace swiftlet::mapping3d

@@ -19,6 +19,7 @@
 #include "common/key_pose.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/submap3d.hpp"
+#include "common/time.hpp"
 #include "mapping3d/loops/key_frame_graph.hpp"
 #include "mapping3d/loops/loop_search.hpp"
 #include "mapping3d/model/submap_config.hpp"
@@ -51,12 +52,20 @@ struct FrameContext {
   /// are closed by appearance. A map has scans in all of its frames or in none.
   std::shared_ptr<const common::KeyPoses> scans;
   std::span<const common::Disc> people;  ///< In `map`. Their pixels are left out.
+  common::Duration depth_later = {};     ///< The depth was taken so much later than the colour.
+};
+
+/// The first key frame of a piece of the map. It is a lost frame, which the frame after it confirmed.
+struct BegunPiece {
+  common::Time stamp;
+  int scan = 0;  ///< Its frame is that of the camera.
 };
 
 struct MappedFrame {
-  RgbdPose pose;                ///< T_map_camera is in the map of FrameContext::scans, or of Mapper3d::scans().
-  common::Pose3 T_scan_camera;  ///< Relative to the key scan `pose.scan`: moves with the map.
-  int loops = 0;                ///< Loop closures that this frame has added.
+  RgbdPose pose;                    ///< T_map_camera is in the map of FrameContext::scans, or of Mapper3d::scans().
+  common::Pose3 T_scan_camera;      ///< Relative to the key scan `pose.scan`: moves with the map.
+  int loops = 0;                    ///< Loop closures that this frame has added.
+  std::optional<BegunPiece> begun;  ///< By this frame and the lost one before it.
 };
 
 /// One thread. A function of its frames and their contexts.
@@ -72,14 +81,18 @@ class Mapper3d {
   const KeyFrameMap& keyFrames() const { return odometry_->keyFrames(); }
   /// What submaps and frames hang on where there is no 2D map.
   std::shared_ptr<const common::KeyPoses> scans() const { return graph_.poses(); }
+  /// The piece of the map that hangs on a key frame, where there is no 2D map. Poses of different pieces have nothing
+  /// to do with each other, until they are joined and have one number.
+  int pieceOf(int scan) const { return graph_.pieceOf(scan); }
   /// See FocalCheck; without a 2D map only.
   std::optional<double> betterFocalFactor() const { return focal_.betterFactor(); }
   bool isFocalLengthChecked() const { return focal_.canTell(); }
 
  private:
-  /// The newest key frame becomes a node of the graph, and loops to it are closed.
-  void grow(const common::RgbdFrame& still, MappedFrame& mapped);
-  void checkFocal(const common::RgbdFrame& still, const RgbdPose& pose);
+  void beginPiece(MappedFrame& mapped);
+  /// The newest key frame becomes a node of the graph, loops to it are closed, and pieces that it connects are joined.
+  void grow(MappedFrame& mapped);
+  void checkFocal(const RgbdPose& pose);
 
   Mapper3dConfig config_;
   std::unique_ptr<FrameOdometry> odometry_;

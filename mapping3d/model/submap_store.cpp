@@ -55,7 +55,7 @@ SubmapStore::SubmapStore(const SubmapConfig& config, const VoxelConfig& voxels, 
     : config_(config), voxels_(voxels), noise_(noise) {}
 
 void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans) {
-  const Pose3 T_submap_map = enter(placed.T_map_camera.position_m, placed.scan, scans).inverse();
+  const Pose3 T_submap_map = enter({placed.T_map_camera.position_m, placed.scan, placed.piece}, scans).inverse();
   const Pose3 T_submap_camera = T_submap_map * placed.T_map_camera;
   growing_->voxels.insert(placed.frame.depth, placed.frame.camera, T_submap_camera,
                           inSubmap(placed.people, T_submap_map));
@@ -67,7 +67,8 @@ void SubmapStore::draw(const PlacedFrame& placed, const common::KeyPoses& scans)
 void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans) {
   if (placed.rays_scan.empty()) return;
   const Pose3 T_map_scan = scans.T_map_level(placed.scan);
-  const Pose3 T_submap_map = enter(T_map_scan * placed.rays_scan.front().origin_m, placed.scan, scans).inverse();
+  const Eigen::Vector3d sensor_map_m = T_map_scan * placed.rays_scan.front().origin_m;
+  const Pose3 T_submap_map = enter({sensor_map_m, placed.scan}, scans).inverse();
   const Pose3 T_submap_scan = T_submap_map * T_map_scan;
   const Eigen::Matrix3d rotation = T_submap_scan.rotation.toRotationMatrix();
   const std::vector<common::Disc> people = inSubmap(placed.people, T_submap_map);
@@ -87,14 +88,22 @@ void SubmapStore::draw(const PlacedSweep& placed, const common::KeyPoses& scans)
   growing_->points.add(points, {});
 }
 
-Pose3 SubmapStore::enter(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) {
-  if (growing_ && awayFrom(kept_[growing_->index].submap, sensor_map_m, scans) > config_.reach_m) leave();
+void SubmapStore::joinPieces(int from, int into) {
+  for (Kept& kept : kept_)
+    if (kept.piece == from) kept.piece = into;
+}
+
+Pose3 SubmapStore::enter(const Place& place, const common::KeyPoses& scans) {
+  if (growing_) {
+    const Kept& kept = kept_[growing_->index];
+    if (kept.piece != place.piece || awayFrom(kept.submap, place.sensor_map_m, scans) > config_.reach_m) leave();
+  }
   if (!growing_) {
-    const auto at = known(sensor_map_m, scan, scans);
-    grow(at ? *at : add(sensor_map_m, scan, scans));
+    const auto at = known(place, scans);
+    grow(at ? *at : add(place, scans));
   }
   Kept& kept = kept_[growing_->index];
-  kept.scans.insert(scan);
+  kept.scans.insert(place.scan);
   kept.submap.last_frame = frames_++;
   return kept.submap.T_map_submap(scans);
 }
@@ -112,13 +121,12 @@ std::vector<Submap3d> SubmapStore::snapshot() {
 }
 
 /// The nearest one within reach, among the submaps whose key scans place the frame.
-std::optional<std::size_t> SubmapStore::known(const Eigen::Vector3d& sensor_map_m, int scan,
-                                              const common::KeyPoses& scans) const {
+std::optional<std::size_t> SubmapStore::known(const Place& place, const common::KeyPoses& scans) const {
   std::optional<std::size_t> nearest;
   double least_m = config_.reach_m;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    if (!hasNeighbour(kept_[i].scans, scan)) continue;
-    const double away_m = awayFrom(kept_[i].submap, sensor_map_m, scans);
+    if (kept_[i].piece != place.piece || !hasNeighbour(kept_[i].scans, place.scan)) continue;
+    const double away_m = awayFrom(kept_[i].submap, place.sensor_map_m, scans);
     if (away_m > least_m) continue;
     least_m = away_m;
     nearest = i;
@@ -127,16 +135,16 @@ std::optional<std::size_t> SubmapStore::known(const Eigen::Vector3d& sensor_map_
 }
 
 /// Adds an empty submap. Its voxels coincide with the map's as long as no correction moves it, so fusing loses nothing.
-std::size_t SubmapStore::add(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) {
+std::size_t SubmapStore::add(const Place& place, const common::KeyPoses& scans) {
   if (static_cast<int>(kept_.size()) >= config_.submaps_max) kept_.erase(kept_.begin());
   Pose3 T_map_submap;
   for (int i = 0; i < 2; ++i)
-    T_map_submap.position_m[i] = std::round(sensor_map_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
-  Submap3d submap{scan, scans.T_map_level(scan).inverse() * T_map_submap,
+    T_map_submap.position_m[i] = std::round(place.sensor_map_m[i] / voxels_.resolution_m) * voxels_.resolution_m;
+  Submap3d submap{place.scan, scans.T_map_level(place.scan).inverse() * T_map_submap,
                   std::make_shared<const std::vector<common::SurfacePoint>>(),
                   std::make_shared<const common::VoxelMap>(voxels_.resolution_m), config_.cube_m};
   submap.first_frame = submap.last_frame = frames_;
-  kept_.push_back({std::move(submap), {}, {}});
+  kept_.push_back({std::move(submap), {}, {}, place.piece});
   return kept_.size() - 1;
 }
 

@@ -31,6 +31,7 @@ struct PlacedFrame {
   int scan = 0;  ///< The key scan on which a submap that begins here hangs.
   std::span<const common::Disc> people;
   bool is_key_frame = false;
+  int piece = 0;  ///< Of the map: a submap is in one only.
 };
 
 /// One sweep of a laser.
@@ -50,6 +51,8 @@ class SubmapStore {
   void draw(const PlacedFrame& placed, const common::KeyPoses& scans);
   /// The points have no normals and are grey: a laser sees neither.
   void draw(const PlacedSweep& placed, const common::KeyPoses& scans);
+  /// The submaps of the piece `from` become those of `into`.
+  void joinPieces(int from, int into);
   /// All submaps as they are now, in the order of their making. Those that do not grow are the same objects as before.
   std::vector<common::Submap3d> snapshot();
 
@@ -58,6 +61,7 @@ class SubmapStore {
     common::Submap3d submap;     ///< As it was when it was left.
     std::vector<float> weights;  ///< WeightedPoints of its points.
     std::set<int> scans;         ///< The key scans of the frames that were drawn into it.
+    int piece = 0;
 
     void take(WeightedPoints points);
   };
@@ -68,10 +72,16 @@ class SubmapStore {
     PointGrid points;
     std::uint64_t frames = 0;
   };
+  /// A sensor that draws.
+  struct Place {
+    const Eigen::Vector3d& sensor_map_m;
+    int scan = 0;
+    int piece = 0;
+  };
   /// Makes the submap grow into which a sensor there draws, and returns its place.
-  common::Pose3 enter(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans);
-  std::optional<std::size_t> known(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans) const;
-  std::size_t add(const Eigen::Vector3d& sensor_map_m, int scan, const common::KeyPoses& scans);
+  common::Pose3 enter(const Place& place, const common::KeyPoses& scans);
+  std::optional<std::size_t> known(const Place& place, const common::KeyPoses& scans) const;
+  std::size_t add(const Place& place, const common::KeyPoses& scans);
   void grow(std::size_t index);
   void leave();
   void thinOldest();

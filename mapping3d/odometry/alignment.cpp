@@ -27,9 +27,11 @@ constexpr double kTukey = 4.685;
 /// Steps below these are smaller than the noise, and end the iterations.
 constexpr double kSmallStep_m = 5e-5;
 constexpr double kSmallStep_rad = 5e-5;
-/// The iterations begin with this many times the standard deviation that grey values have in an exact fit, and never
-/// assume more: where the views differ, texture does not repeat.
+/// The iterations begin with this many times the standard deviation that grey values and surfaces have in an exact fit,
+/// and never assume more: where the views differ, texture does not repeat.
 constexpr double kWidest = 5.0;
+/// Levels of the pyramid, the finest ones, that are aligned from a pose that corners gave.
+constexpr std::size_t kLevelsNear = 2;
 /// Fewer textured points do not distinguish a right pose from a wrong one.
 constexpr int kLeastTextured = 50;
 /// A surface point counts as agreeing within this many standard deviations.
@@ -65,11 +67,18 @@ class CorrelationSums {
   double a_ = 0.0, b_ = 0.0, aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
 };
 
+/// Standard deviations that an iteration assumes.
+struct Spread {
+  double gray = kGraySigma;
+  double surface = 1.0;  ///< In those of an exact fit, which near surfaces have to a millimetre.
+};
+
 /// Sums over the points of one iteration.
 struct Sums {
   ExposureEquations equations;
   int points = 0, visible = 0, measured = 0, agreeing = 0;
-  double absolute_gray = 0.0;
+  int surfaces = 0;
+  double absolute_gray = 0.0, absolute_surface = 0.0;
   CorrelationSums grays;
   struct Gray {
     Eigen::Vector3d point_camera_m;
@@ -85,7 +94,7 @@ class LevelErrors {
       : level_(level), noise_(noise), config_(config) {}
 
   void add(std::span<const ReferencePoint> points, const common::Pose3& T_camera_key, const Exposure& exposure,
-           double sigma, Sums& sums) const {
+           const Spread& spread, Sums& sums) const {
     const Eigen::Matrix3d rotation = T_camera_key.rotation.toRotationMatrix();
     for (const ReferencePoint& reference : points) {
       ++sums.points;
@@ -95,16 +104,23 @@ class LevelErrors {
       if (!(pixel.x() >= 1.0 && pixel.y() >= 1.0 && pixel.x() < level_.camera.width_px - 2 &&
             pixel.y() < level_.camera.height_px - 2))
         continue;
+      if (isHidden(point, pixel)) continue;
       ++sums.visible;
-      if (!addSurface(reference, rotation, point, pixel, sums)) continue;
-      if (reference.is_textured) addGray(reference, point, pixel, exposure, sigma, sums);
+      if (!addSurface(reference, rotation, point, pixel, spread.surface, sums)) continue;
+      if (reference.is_textured) addGray(reference, point, pixel, exposure, spread.gray, sums);
     }
   }
 
  private:
-  /// False if the frame sees another surface there, which hides the point or has appeared behind it.
+  /// Whether the frame sees a nearer surface there, as a wall of the next room. Nothing is known of the point then.
+  bool isHidden(const Eigen::Vector3d& point, const Eigen::Vector2d& pixel) const {
+    const float depth_m = level_.depth.at(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5));
+    return noise_.isUsable(depth_m) && static_cast<double>(depth_m) < point.x() - kSurfaceGate_m;
+  }
+
+  /// False if the frame sees another surface behind it.
   bool addSurface(const ReferencePoint& reference, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& point,
-                  const Eigen::Vector2d& pixel, Sums& sums) const {
+                  const Eigen::Vector2d& pixel, double spread, Sums& sums) const {
     const auto u = static_cast<int>(pixel.x() + 0.5), v = static_cast<int>(pixel.y() + 0.5);
     const float depth_m = level_.depth.at(u, v);
     if (!noise_.isUsable(depth_m)) return true;
@@ -119,12 +135,15 @@ class LevelErrors {
     }
     const Eigen::Vector3d normal = rotation * reference.normal_camera.cast<double>();
     const double residual_m = normal.dot(point - seen);
-    const double weight = tukeyWeight(residual_m / sigma_m);
+    const double assumed_m = spread * sigma_m;
+    const double weight = tukeyWeight(residual_m / assumed_m);
     sums.agreeing += std::abs(residual_m) < kAgreeing * sigma_m ? 1 : 0;
+    ++sums.surfaces;
+    sums.absolute_surface += std::min(std::abs(residual_m) / sigma_m, 4.0 * spread);
     if (weight == 0.0) return false;
     Vector6d jacobian;
     jacobian << -normal, normal.cross(seen);
-    sums.equations.addSurface(jacobian, residual_m, weight / (sigma_m * sigma_m));
+    sums.equations.addSurface(jacobian, residual_m, weight / (assumed_m * assumed_m));
     return true;
   }
 
@@ -163,12 +182,12 @@ class LevelErrors {
 /// `above_coarsest` counts levels from the coarsest one, of frame and key frames: a radio may send them in different
 /// sizes, whose pyramids have coarsest levels of one size.
 Sums sumsAt(const LevelErrors& errors, std::span<const ReferenceView> views, std::size_t above_coarsest,
-            const common::Pose3& T_map_camera, const Exposure& exposure, double sigma) {
+            const common::Pose3& T_map_camera, const Exposure& exposure, const Spread& spread) {
   Sums sums;
   const common::Pose3 T_camera_map = T_map_camera.inverse();
   for (const ReferenceView& view : views)
     errors.add(*(view.levels->rbegin() + std::min(above_coarsest, view.levels->size() - 1)),
-               T_camera_map * view.T_map_key, exposure, sigma, sums);
+               T_camera_map * view.T_map_key, exposure, spread, sums);
   return sums;
 }
 
@@ -219,9 +238,12 @@ Matrix6d gradientNoise(const std::vector<Sums::Gray>& compared, const common::Pi
 }
 
 /// The mean absolute value of a Gaussian is 0.8 of its standard deviation.
-double spreadOf(const Sums& sums) {
-  if (sums.grays.count() == 0) return kGraySigma;
-  return std::clamp(1.25 * sums.absolute_gray / sums.grays.count(), kGraySigma, kWidest * kGraySigma);
+Spread spreadOf(const Sums& sums) {
+  Spread spread;
+  if (sums.grays.count() > 0)
+    spread.gray = std::clamp(1.25 * sums.absolute_gray / sums.grays.count(), kGraySigma, kWidest * kGraySigma);
+  if (sums.surfaces > 0) spread.surface = std::clamp(1.25 * sums.absolute_surface / sums.surfaces, 1.0, kWidest);
+  return spread;
 }
 
 }  // namespace
@@ -235,22 +257,23 @@ void AlignmentConfig::describe(common::config::Fields& fields) {
 Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,
                     const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
   const LevelErrors errors(frame.back(), noise, config);
-  return summary(T_map_camera, sumsAt(errors, views, 0, T_map_camera, exposure, kWidest * kGraySigma));
+  return summary(T_map_camera, sumsAt(errors, views, 0, T_map_camera, exposure, {kWidest * kGraySigma, 1.0}));
 }
 
 Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views, const PosePrior& prior,
-                const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config) {
-  common::Pose3 pose = prior.T_map_camera;
+                const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config,
+                const std::optional<common::Pose3>& near) {
+  common::Pose3 pose = near.value_or(prior.T_map_camera);
   Exposure estimate = exposure;
-  double sigma = kWidest * kGraySigma;
+  Spread spread{kWidest * kGraySigma, kWidest};
   Sums sums;
   ExposureEquations measured;
-  for (std::size_t level = frame.size(); level-- > 0;) {
+  for (std::size_t level = near ? std::min(kLevelsNear, frame.size()) : frame.size(); level-- > 0;) {
     const LevelErrors errors(frame[level], noise, config);
     const std::span<const ReferenceView> used = level > 1 ? views.first(1) : views;
     for (int i = 0; i < kIterations; ++i) {
-      sums = sumsAt(errors, used, frame.size() - 1 - level, pose, estimate, sigma);
-      sigma = spreadOf(sums);
+      sums = sumsAt(errors, used, frame.size() - 1 - level, pose, estimate, spread);
+      spread = spreadOf(sums);
       measured = sums.equations;
       sums.equations.addPose(prior.information, errorOf(pose, prior));
       const ExposureEquations::Vector8d step = sums.equations.solve();

@@ -6,6 +6,7 @@
 // R. Newcombe et al., "KinectFusion", ISMAR 2011 (projective association).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct Alignment {
   /// What grey values that are nothing but noise would add to that, if their gradients had variance 1 along both axes:
   /// noise looks like texture.
   Matrix6d gradient_noise = Matrix6d::Zero();
-  double overlap = 0.0;    ///< Part of the points that lie in the picture.
+  double overlap = 0.0;    ///< Part of the points that lie in the picture, and not behind what it shows.
   double agreement = 0.0;  ///< Part of those, where the depth was measured, whose depth agrees with it.
   /// Correlation of the grey values of textured points with those of the frame: near 1 at the right pose, near 0 at a
   /// wrong one, whatever the exposure. 1 if too few points are textured.
@@ -69,8 +70,11 @@ struct Alignment {
 Alignment judgePose(const FramePyramid& frame, std::span<const ReferenceView> views, const common::Pose3& T_map_camera,
                     const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config);
 
-/// Starts at the prior's pose and the last exposure. At coarse levels only the first view counts.
+/// Begins at the prior's pose, with the last exposure. At coarse levels only the first view counts. A pose that is
+/// known to a few pixels, by corners, is given as `near`: the alignment begins there and leaves out the coarse levels,
+/// on which a pattern that repeats itself looks alike in many places.
 Alignment align(const FramePyramid& frame, std::span<const ReferenceView> views, const PosePrior& prior,
-                const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config);
+                const Exposure& exposure, const vision::DepthNoiseConfig& noise, const AlignmentConfig& config,
+                const std::optional<common::Pose3>& near = std::nullopt);
 
 }  // namespace swiftlet::mapping3d

@@ -14,8 +14,13 @@ constexpr double kReach_m = 0.5, kReach_m_s = 3.0;
 constexpr double kReach_rad = 0.5, kReach_rad_s = 2.0;
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.2;
 constexpr double kLeastShown = 0.4, kLeastAlike = 0.6;
+constexpr int kLeastTexturedPoints = 150;
 /// A frame of which less agrees fits weakly.
 constexpr double kSurelyAgrees = 0.75;
+/// Corners tell the pose to some 7 cm and 3 deg at steps of 20 cm and 20 deg.
+constexpr double kConfirmed_m = 0.12, kConfirmed_rad = 0.06;
+/// Right poses agree and correlate by more, wrong ones by less (docs/decisions/mapping3d.md#103).
+constexpr double kSureAgreement = 0.9, kSureCorrelation = 0.85;
 constexpr double kLeap_m = 0.1, kLeap_rad = 0.1, kLeapSigmas = 3.0;
 
 bool isWithin(double distance_m, double turn_rad, const Pose3& a, const Pose3& b) {
@@ -31,9 +36,17 @@ bool isInReach(const Pose3& last, const Pose3& found, double gap_s) {
 
 bool isSamePlace(const Pose3& a, const Pose3& b) { return isWithin(kSamePlace_m, kSamePlace_rad, a, b); }
 
-bool isRecognized(const Alignment& fit, int least_textured) {
-  return fit.overlap >= kLeastShown && fit.agreement >= kSurelyAgrees && fit.textured >= least_textured &&
+bool isRecognized(const Alignment& fit) {
+  return fit.overlap >= kLeastShown && fit.agreement >= kSurelyAgrees && fit.textured >= kLeastTexturedPoints &&
          fit.correlation >= kLeastAlike;
+}
+
+bool isConfirmed(const Alignment& fit, const Pose3& by_corners) {
+  return isWithin(kConfirmed_m, kConfirmed_rad, by_corners, fit.T_map_camera);
+}
+
+bool isSure(const Alignment& fit) {
+  return isRecognized(fit) && fit.agreement >= kSureAgreement && fit.correlation >= kSureCorrelation;
 }
 
 bool isLeap(const Alignment& fit, const PosePrior& prior) {

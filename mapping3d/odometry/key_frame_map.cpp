@@ -7,8 +7,6 @@
 namespace swiftlet::mapping3d {
 namespace {
 
-/// Key frames that a frame is aligned to, at most (docs/decisions/mapping3d.md#032).
-constexpr int kViews = 3;
 /// A key frame is added where less than this part of the nearest one's points is in the picture.
 constexpr double kCovered = 0.6;
 /// A key frame is added where the nearest one is turned by more than this against the picture.
@@ -52,10 +50,15 @@ void KeyFrameMap::add(std::shared_ptr<const KeyFrame> key, const KeyFramePlace& 
       {std::move(key), place, T_map_scan(place.scan).inverse() * place.T_map_key, ++clock_, next_number_++});
 }
 
-void KeyFrameMap::hangNewestOn(int scan) {
-  Kept& newest = keys_.back();
-  newest.place.scan = scan;
-  newest.T_scan_key = T_map_scan(scan).inverse() * newest.place.T_map_key;
+void KeyFrameMap::hang(std::size_t index, int scan) {
+  Kept& kept = keys_[index];
+  kept.place.scan = scan;
+  kept.T_scan_key = T_map_scan(scan).inverse() * kept.place.T_map_key;
+}
+
+void KeyFrameMap::joinTracks(int from, int into) {
+  for (Kept& kept : keys_)
+    if (kept.place.track == from) kept.place.track = into;
 }
 
 common::Pose3 KeyFrameMap::T_map_scan(int scan) const { return scans_ ? scans_->T_map_level(scan) : common::Pose3{}; }
@@ -66,7 +69,8 @@ void KeyFrameMap::moveTo(std::shared_ptr<const common::KeyPoses> scans) {
 }
 
 std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& coarsest,
-                                                  const common::Pose3& T_map_camera) const {
+                                                  const common::Pose3& T_map_camera, std::optional<int> track,
+                                                  std::size_t greatest) const {
   struct Ranked {
     std::size_t index;
     double score;
@@ -75,6 +79,7 @@ std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& c
   const common::Pose3 T_camera_map = T_map_camera.inverse();
   // Of equal ones the newest.
   for (std::size_t i = keys_.size(); i-- > 0;) {
+    if (track && keys_[i].place.track != *track) continue;
     const KeyFrame& key = *keys_[i].frame;
     const common::Pose3& T_map_key = keys_[i].place.T_map_key;
     const double overlap = overlapOf(key.levels.back(), T_camera_map * T_map_key, coarsest);
@@ -86,7 +91,7 @@ std::vector<std::size_t> KeyFrameMap::overlapping(const common::PinholeCamera& c
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.score > b.score; });
   std::vector<std::size_t> indices;
   for (const Ranked& one : ranked)
-    if (static_cast<int>(indices.size()) < kViews && placeOf(one.index).track == placeOf(ranked.front().index).track)
+    if (indices.size() < greatest && placeOf(one.index).track == placeOf(ranked.front().index).track)
       indices.push_back(one.index);
   return indices;
 }

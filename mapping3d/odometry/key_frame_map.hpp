@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -28,6 +29,9 @@ struct KeyFramePlace {
 
 class KeyFrameMap {
  public:
+  /// Key frames that a frame is aligned to, at most (docs/decisions/mapping3d.md#032).
+  static constexpr std::size_t kAlignedTo = 3;
+
   explicit KeyFrameMap(int greatest_number = 400) : greatest_number_(greatest_number) {}
 
   /// Beyond the greatest number, the one that was used longest ago is dropped.
@@ -37,15 +41,20 @@ class KeyFrameMap {
   const KeyFrame& at(std::size_t index) const { return *keys_[index].frame; }
   const KeyFramePlace& placeOf(std::size_t index) const { return keys_[index].place; }
 
-  /// Hangs the newest key frame on another key scan; it stays where it is.
-  void hangNewestOn(int scan);
+  /// Hangs a key frame on another key scan; it stays where it is.
+  void hang(std::size_t index, int scan);
+  /// The key frames of the track `from` become those of `into`.
+  void joinTracks(int from, int into);
   /// Moves the key frames with the key scans that they hang on.
   void moveTo(std::shared_ptr<const common::KeyPoses> scans);
   /// The identity without key scans.
   common::Pose3 T_map_scan(int scan) const;
 
-  /// Up to three key frames of one track that overlap most with what the camera would see, the best first.
-  std::vector<std::size_t> overlapping(const common::PinholeCamera& coarsest, const common::Pose3& T_map_camera) const;
+  /// Up to `greatest` key frames of one track that overlap most with what the camera would see, the best first. The
+  /// track is that of the best one, unless it is given.
+  std::vector<std::size_t> overlapping(const common::PinholeCamera& coarsest, const common::Pose3& T_map_camera,
+                                       std::optional<int> track = std::nullopt,
+                                       std::size_t greatest = kAlignedTo) const;
   /// As views of an alignment. They are valid until the next add().
   std::vector<ReferenceView> views(const std::vector<std::size_t>& indices) const;
   /// Keeps them from being dropped for a while.

@@ -401,7 +401,7 @@ TEST_F(Map3d, ResultsHaveTheFrameNumbersOfARecordingWithoutTimes) {
   EXPECT_NEAR(trajectory.back().stamp.seconds(), 43.0, 1e-5);
 }
 
-/// Two frames of another place, as of a table that the camera lay on, come first.
+/// Two frames of another place, as of a table that the camera lay on, come first: they are a piece of their own.
 TEST_F(Map3d, AFalseStartIsNotTheWholeMap) {
   const auto some = kitchenFrames(folder_, 60, 2);
   if (!some) return;
@@ -410,7 +410,26 @@ TEST_F(Map3d, AFalseStartIsNotTheWholeMap) {
   const nlohmann::json figures = nlohmann::json::parse(end.out);
   EXPECT_EQ(figures.at("frames"), 60) << figures.dump(1);
   EXPECT_EQ(figures.at("lost_frames"), 0);
-  EXPECT_NEAR(figures.at("frames_before_the_map").get<double>(), 48.0, 2.0) << "3 s of lost frames";
+  ASSERT_EQ(figures.at("pieces").size(), 2u);
+  EXPECT_EQ(figures.at("pieces")[0].at("frames"), 58) << "the map";
+  EXPECT_EQ(figures.at("pieces")[1].at("frames"), 2);
+  EXPECT_EQ(figures.at("trusted"), true) << figures.at("trust_reason");
+  EXPECT_THAT(figures.at("notes").dump(), HasSubstr("2 frames are in 1 piece that nothing connects to the map"));
+  EXPECT_EQ(interfaces::readTum(path("out/trajectory.tum")).size(), 58u);
+  const std::string pieces = readText(path("out/pieces.txt"));
+  EXPECT_EQ(std::count(pieces.begin(), pieces.end(), '\n'), 61);
+  EXPECT_THAT(pieces, testing::EndsWith(" 2\n"));
+}
+
+/// As if two recordings were one.
+TEST_F(Map3d, AMapOfWhichMuchIsMissingIsNotTrusted) {
+  const auto some = kitchenFrames(folder_, 40, 5);
+  if (!some) return;
+  const ProgramEnd end = runSwiftlet({"map3d", some->string(), "--out", path("out"), "--json"});
+  ASSERT_EQ(end.exit_code, 0) << describe(end);
+  const nlohmann::json figures = nlohmann::json::parse(end.out);
+  EXPECT_EQ(figures.at("trusted"), false);
+  EXPECT_THAT(figures.at("trust_reason"), HasSubstr("5 in 1 piece that nothing connects to the map"));
 }
 
 TEST_F(Map3d, SaysWhereGivenPosesAreOfOtherTimes) {
