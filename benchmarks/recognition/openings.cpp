@@ -14,6 +14,7 @@
 
 #include "common/quantile.hpp"
 #include "perception/recognition/opening_recognizer.hpp"
+#include "perception/recognition/opening_tracker.hpp"
 
 namespace swiftlet::benchmarks {
 namespace {
@@ -82,6 +83,7 @@ class Counter {
   void addRecognized(const HouseScene& scene, const Recognized& one, std::vector<const Recognized*>& taken) {
     const Eigen::Vector3d place = scene.T_house_camera() * one.T_sensor_object.position_m;
     const PlacedItem* item = itemAt(scene, place);
+    if (one.what == "mirror") return;
     if (one.passage == Passage::kClosed) {
       const bool right = item && (item->kind == HouseItem::kClosedDoor || item->kind == HouseItem::kClosedWindow);
       if (right) taken[static_cast<std::size_t>(item - scene.items.data())] = &one;
@@ -197,7 +199,64 @@ void print(const char* title, const Counts& c) {
   std::printf("| ms a frame, median / 95 %% | %s |\n", spread(c.ms, 1.0).c_str());
 }
 
+/// What is confirmed after several looks.
+struct TrackCounts {
+  int right = 0, wrong = 0, due = 0, found = 0;
+  std::map<std::string, int> wrong_of;
+  std::vector<double> error_m;
+};
+
+/// Looks at one item of the room from several places, and judges what is confirmed as open.
+void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& counts) {
+  perception::OpeningRecognizer recognizer({});
+  perception::OpeningTracker tracker;
+  std::vector<int> due(scene.items.size(), 0);
+  for (const HouseScene& one : perception::looksAround(scene, rays)) {
+    const perception::HouseView view = perception::look(one, rays);
+    tracker.add(recognizer.recognize(
+                    {nullptr, &view.scan, &view.frame, one.R_level_camera, one.T_camera_laser(), &view.behind_m}),
+                one.T_house_camera(), 0.02);
+    for (std::size_t i = 0; i < scene.items.size(); ++i) {
+      const ItemInView seen = perception::inView(one, scene.items[i], rays);
+      if (scene.items[i].isOpen() && seen.whole && seen.size_px >= kCovered_px) ++due[i];
+    }
+  }
+  std::vector<bool> found(scene.items.size(), false);
+  for (const perception::TrackedOpening& opening : tracker.openings()) {
+    if (opening.passage != Passage::kOpen) continue;
+    const PlacedItem* item = itemAt(scene, opening.centre_map_m);
+    if (item && item->isOpen() && isAt(*item, opening.centre_map_m)) {
+      ++counts.right;
+      found[static_cast<std::size_t>(item - scene.items.data())] = true;
+      counts.error_m.push_back((opening.centre_map_m - item->centre_m()).head<2>().norm());
+    } else {
+      ++counts.wrong;
+      ++counts.wrong_of[item ? nameOf(item->kind) : "elsewhere"];
+    }
+  }
+  // Three looks confirm.
+  for (std::size_t i = 0; i < due.size(); ++i) {
+    if (due[i] < 3) continue;
+    ++counts.due;
+    if (found[i]) ++counts.found;
+  }
+}
+
 }  // namespace
+
+void followOpenings(const OpeningRun& run) {
+  TrackCounts counts;
+  for (std::uint64_t i = run.first; i < run.first + run.rooms; ++i) {
+    const HouseScene scene = perception::drawHouse(run.houses, run.seed, i);
+    const simulation::RayCaster rays(scene.world);
+    follow(scene, rays, counts);
+  }
+  std::printf("\n| tracked | |\n| --- | --- |\n");
+  std::printf("| precision, %% | %s |\n", percent(counts.right, counts.right + counts.wrong).c_str());
+  for (const auto& [what, count] : counts.wrong_of) std::printf("| false at: %s | %d |\n", what.c_str(), count);
+  std::printf("| recall of those that three looks show whole, %% | %s |\n", percent(counts.found, counts.due).c_str());
+  std::printf("| centre, horizontally, cm, median / 95 %% | %s |\n", spread(counts.error_m, 100.0).c_str());
+}
 
 void countOpenings(const OpeningRun& run) {
   perception::OpeningRecognizer by_depth({});

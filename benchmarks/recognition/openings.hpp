@@ -15,5 +15,7 @@ struct OpeningRun {
 
 /// Prints the table of docs/recognition.md.
 void countOpenings(const OpeningRun& run);
+/// The same of what is confirmed after looks from several places.
+void followOpenings(const OpeningRun& run);
 
 }  // namespace swiftlet::benchmarks

@@ -55,7 +55,7 @@ constexpr double kCovered_px = 40.0;
 struct Options {
   std::uint64_t pictures = 200, seed = 1, first = 0;
   std::string backgrounds, pattern = "landing", dump, only, openings;
-  bool verbose = false;
+  bool verbose = false, tracked = false;
 };
 
 double processorSeconds() {
@@ -286,13 +286,18 @@ int main(int argc, char** argv) {
   app.add_option("--dump", options.dump, "Folder for the pictures");
   app.add_option("--openings", options.openings, "Windows and doors in as many rooms, of houses that are")
       ->check(CLI::IsMember({"written", "held-back"}));
+  app.add_flag("--tracked", options.tracked, "Openings as confirmed by looks from several places");
   app.add_flag("--verbose", options.verbose, "Name each opening that is missed or false");
   app.add_option("--only", options.only, "The recognizer whose name contains this");
   CLI11_PARSE(app, argc, argv);
   try {
     if (options.openings.empty()) return run(options);
     const auto houses = options.openings == "written" ? perception::Houses::kWritten : perception::Houses::kHeldBack;
-    benchmarks::countOpenings({houses, options.seed, options.first, options.pictures, options.verbose});
+    const benchmarks::OpeningRun rooms{houses, options.seed, options.first, options.pictures, options.verbose};
+    if (options.tracked)
+      benchmarks::followOpenings(rooms);
+    else
+      benchmarks::countOpenings(rooms);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -214,7 +214,7 @@ std::vector<Eigen::Vector3d> turned(const std::vector<Eigen::Vector3d>& points_c
   return points;
 }
 
-/// nullopt if it is none, or a mirror.
+/// nullopt if it is none.
 std::optional<Recognized> recognizedAs(const WallHole& hole, const DepthView& view,
                                        const std::optional<LevelScan>& scan) {
   if (!hasShape(hole)) return std::nullopt;
@@ -226,7 +226,10 @@ std::optional<Recognized> recognizedAs(const WallHole& hole, const DepthView& vi
   std::vector<Eigen::Vector3d> points = behind(hole, view);
   points.insert(points.end(), through.points_m.begin(), through.points_m.end());
   const Reflection reflection = reflectionOf(points, hole.wall, *scan);
-  if (reflection == Reflection::kYes) return std::nullopt;
+  if (reflection == Reflection::kYes) {
+    object.what = "mirror";
+    object.passage = Passage::kClosed;
+  }
   if (reflection == Reflection::kMaybe) object.confidence *= kMaybeMirror;
   return object;
 }

@@ -5,7 +5,7 @@
 //   depth --> walls --> holes with the wall around --> room behind? a reflection? --> window | door, open | closed
 //   scan --> lines --> two of one wall with a gap through which the laser sees --> opening
 //
-// A picture of a window is a wall; a mirror is refused where the scan shows what it reflects. Frames: x along the
+// A picture of a window is a wall; where the scan shows what it reflects, it is a `mirror`. Frames: x along the
 // wall's normal towards the sensor, z up, the origin in the middle of the hole in the plane of the wall.
 #pragma once
 
@@ -25,7 +25,7 @@ struct OpeningConfig {
 /// Openings with more confidence than this have been told from mirrors by a scan, or there was none.
 inline constexpr double kSureOpening = 0.5;
 
-/// Openings in the depths of a frame. A scan of the same time, if there is one, refuses mirrors and panes.
+/// Openings in the depths of a frame. A scan of the same time, if there is one, tells mirrors and panes.
 class OpeningRecognizer final : public Recognizer {
  public:
   explicit OpeningRecognizer(const OpeningConfig& config) : config_(config) {}

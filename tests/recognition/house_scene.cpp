@@ -298,6 +298,30 @@ HouseScene drawHouse(Houses houses, std::uint64_t seed, std::uint64_t index) {
   return Builder(houses, seed, index).build();
 }
 
+std::vector<HouseScene> looksAround(const HouseScene& scene, const simulation::RayCaster& rays) {
+  constexpr double kStep_m = 0.3, kFree_m = 0.4;
+  const Eigen::Vector3d centre = scene.items[scene.looked_at].centre_m();
+  std::vector<HouseScene> looks;
+  for (int i = -3; i <= 3; ++i) {
+    RandomStream random(scene.seed, "look", scene.index * 16 + static_cast<std::uint64_t>(i + 3));
+    HouseScene one = scene;
+    Eigen::Vector3d& at = one.T_house_body.position_m;
+    at.y() += kStep_m * i;
+    const Eigen::Vector3d towards = at - scene.T_house_body.position_m;
+    const bool blocked = i != 0 && rays.cast(scene.T_house_body.position_m, towards.normalized(), 5.0, {}).distance_m <
+                                       towards.norm() + kFree_m;
+    if (blocked || rays.nearest(at, kFree_m).distance_m < kFree_m) continue;
+    const double yaw = std::atan2(centre.y() - at.y(), centre.x() - at.x()) + random.gaussian(3.0) * kRadPerDeg;
+    one.T_house_body.rotation = turned(random.gaussian(1.5) * kRadPerDeg, random.gaussian(1.5) * kRadPerDeg, yaw);
+    const Eigen::Quaterniond R_house_camera = one.T_house_camera().rotation;
+    one.R_level_camera = turned(random.gaussian(0.5) * kRadPerDeg, random.gaussian(0.5) * kRadPerDeg, 0.0) *
+                         turned(0.0, 0.0, -common::yawOf(R_house_camera)) * R_house_camera;
+    one.index = scene.index * 16 + static_cast<std::uint64_t>(i + 3);
+    looks.push_back(std::move(one));
+  }
+  return looks;
+}
+
 HouseView look(const HouseScene& scene, const simulation::RayCaster& rays) {
   const common::RgbdCameraConfig config = flyingXtion();
   const simulation::DepthSensor sensor(config, cameraErrors(), scene.seed);

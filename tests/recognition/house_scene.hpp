@@ -45,6 +45,8 @@ struct HouseScene {
 };
 
 HouseScene drawHouse(Houses houses, std::uint64_t seed, std::uint64_t index);
+/// The same room from up to seven free places aside of that of `scene`, 0.3 m apart, turned to the same item.
+std::vector<HouseScene> looksAround(const HouseScene& scene, const simulation::RayCaster& rays);
 
 struct HouseView {
   common::RgbdFrame frame;                ///< Depths alone, of an Xtion as it flies.
