@@ -1,7 +1,8 @@
 // benchmark_recognition [--pictures N] [--seed N] [--backgrounds FOLDER] [--pattern landing | shapes | FILE]
 //
 // Renders scenes with a pattern and the same with an AprilTag in its place, half of them with decoys only, and counts
-// what each recognizer finds. The tables of docs/recognition.md.
+// what each recognizer finds. With --openings, rooms of random houses instead, written or held-back. The tables of
+// docs/recognition.md.
 #include <ctime>
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/LU>
 
+#include "benchmarks/recognition/openings.hpp"
 #include "common/image_decoder.hpp"
 #include "common/png_encoder.hpp"
 #include "common/quantile.hpp"
@@ -52,7 +54,8 @@ constexpr double kCovered_px = 40.0;
 
 struct Options {
   std::uint64_t pictures = 200, seed = 1, first = 0;
-  std::string backgrounds, pattern = "landing", dump, only;
+  std::string backgrounds, pattern = "landing", dump, only, openings;
+  bool verbose = false, tracked = false;
 };
 
 double processorSeconds() {
@@ -281,10 +284,21 @@ int main(int argc, char** argv) {
   app.add_option("--backgrounds", options.backgrounds, "Folder of PNG and JPEG pictures behind the sheets");
   app.add_option("--pattern", options.pattern, "landing, shapes, or a picture");
   app.add_option("--dump", options.dump, "Folder for the pictures");
+  app.add_option("--openings", options.openings, "Windows and doors in as many rooms, of houses that are")
+      ->check(CLI::IsMember({"written", "held-back"}));
+  app.add_flag("--tracked", options.tracked, "Openings as confirmed by looks from several places");
+  app.add_flag("--verbose", options.verbose, "Name each opening that is missed or false");
   app.add_option("--only", options.only, "The recognizer whose name contains this");
   CLI11_PARSE(app, argc, argv);
   try {
-    return run(options);
+    if (options.openings.empty()) return run(options);
+    const auto houses = options.openings == "written" ? perception::Houses::kWritten : perception::Houses::kHeldBack;
+    const benchmarks::OpeningRun rooms{houses, options.seed, options.first, options.pictures, options.verbose};
+    if (options.tracked)
+      benchmarks::followOpenings(rooms);
+    else
+      benchmarks::countOpenings(rooms);
+    return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

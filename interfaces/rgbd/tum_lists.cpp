@@ -103,8 +103,8 @@ Unpaired readTwoLists(const fs::path& folder, RgbdListing& listing) {
   const std::vector<StampedFile> colors = readList(folder, "rgb.txt"), depths = readList(folder, "depth.txt");
   const std::vector<Time> color_stamps = stampsOf(colors), depth_stamps = stampsOf(depths);
   for (const auto& [color, depth] : pairsOf(color_stamps, depth_stamps))
-    listing.pairs.push_back({colors[color].stamp, colors[color].file, depths[depth].file, 0, 0,
-                             depths[depth].stamp - colors[color].stamp});
+    listing.pairs.push_back(
+        {colors[color].stamp, colors[color].file, depths[depth].file, 0, 0, depths[depth].stamp - colors[color].stamp});
   listing.unpaired += colors.size() + depths.size() - 2 * listing.pairs.size();
   return {nearestPair_s(color_stamps, depth_stamps), common::medianStep_s(colors, stampOf)};
 }

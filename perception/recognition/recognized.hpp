@@ -9,6 +9,16 @@
 
 namespace swiftlet::perception {
 
+/// Whether the vehicle could fly through what was recognized.
+enum class Passage {
+  kNone,  ///< Not an opening, or nothing is known.
+  kOpen,
+  kClosed,
+};
+inline const char* toString(Passage passage) {
+  return passage == Passage::kOpen ? "open" : passage == Passage::kClosed ? "closed" : "none";
+}
+
 struct Recognized {
   std::string what;               ///< Name of the object, as it was given to the recognizer.
   common::Pose3 T_sensor_object;  ///< Sensor: `camera` or `laser` of docs/conventions.md.
@@ -16,6 +26,9 @@ struct Recognized {
   /// (exp(rotation) * R, t + position). Zero where a planar scan says nothing: height, roll and pitch in its plane.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< rad^2, rad m, m^2.
   double confidence = 0.0;  ///< In (0, 1], from the evidence in this one observation; comparable within a recognizer.
+  /// Width and height as far as they were seen; zero of objects without a size, and height zero in a planar scan.
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
+  Passage passage = Passage::kNone;
 };
 
 }  // namespace swiftlet::perception

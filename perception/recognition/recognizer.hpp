@@ -4,6 +4,9 @@
 
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include "common/geometry.hpp"
 #include "common/rgbd_frame.hpp"
 #include "common/sensor_event.hpp"
 #include "perception/recognition/recognized.hpp"
@@ -21,6 +24,12 @@ struct CameraPicture {
 struct Observation {
   const CameraPicture* picture = nullptr;
   const common::LaserScan* scan = nullptr;
+  const common::RgbdFrame* frame = nullptr;  ///< Of its depths; a pair of a stereo camera has none.
+  /// Takes directions in the camera to axes whose z points up: the attitude at the time of the frame.
+  Eigen::Quaterniond R_level_camera = Eigen::Quaterniond::Identity();
+  common::Pose3 T_camera_laser = {};  ///< Of the scan that was measured about the time of the frame.
+  /// In the camera: where walls are that the laser saw before and does not see now, behind it. Null: nothing is known.
+  const std::vector<Eigen::Vector3d>* seen_before_m = nullptr;
 };
 
 /// Not thread-safe: a thread has its own. The same observation gives the same bits, whatever came before.
@@ -33,5 +42,7 @@ class Recognizer {
 
 /// Whether there is a picture that has the size of its camera.
 bool hasWholePicture(const Observation& observation);
+/// Whether there are depths that have the size of their camera.
+bool hasWholeDepths(const Observation& observation);
 
 }  // namespace swiftlet::perception
