@@ -38,7 +38,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 8> kUnits = {{{"_
                                                                              {"_s", "s"}}};
 
 /// "goal_error_m", 0.0213 -> {"goal error", "0.0213 m"}.
-std::pair<std::string, std::string> shown(const Figure& figure) {
+std::pair<std::string, std::string> rowOf(const Figure& figure) {
   std::string name = figure.name, unit;
   for (const auto& [ending, words] : kUnits) {
     if (!name.ends_with(ending)) continue;
@@ -118,7 +118,7 @@ std::string figuresSection(const std::vector<Figure>& figures) {
   if (figures.empty()) return "";
   common::Table table{"", {"figure", "value"}, {}};
   for (const Figure& figure : figures) {
-    auto [name, value] = shown(figure);
+    auto [name, value] = rowOf(figure);
     table.rows.push_back({{std::move(name)}, {std::move(value)}});
   }
   return html::section("Figures", html::table(table));

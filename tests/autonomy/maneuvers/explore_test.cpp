@@ -188,6 +188,22 @@ TEST_F(ExploreManeuver, LooksPastSomebodyCountNoLongerOnceHeHasGone) {
   EXPECT_GE(executor_.desk().use().viewpoints, viewpoints + 3);
 }
 
+/// Free space is seen behind a slit in the wall. While it looks there, a door is opened elsewhere.
+TEST_F(ExploreManeuver, LooksBehindAGapOnceThoughMoreOpensMeanwhile) {
+  build(false);
+  fill(grid_, {{100, 24}, {117, 48}}, kWallCell);
+  fill(grid_, {{101, 25}, {116, 47}}, kFreeCell);
+  fill(grid_, {{100, 33}, {101, 39}}, kFreeCell);
+  want(common::ExploreIntent{});
+  run(10.0);
+  ASSERT_EQ(timesSaid("looks once more at what is behind a gap"), 1) << executor_.status().reason;
+  fill(grid_, {{20, 80}, {44, 81}}, kFreeCell);
+  runUntil([this] { return looks() == 3; }, 60.0);
+  ASSERT_EQ(looks(), 3);
+  EXPECT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(timesSaid("looks once more at what is behind a gap"), 1);
+}
+
 TEST_F(ExploreManeuver, RemembersFruitlessLooksAfterAnInterruption) {
   build(true);
   want(common::ExploreIntent{});
