@@ -72,7 +72,8 @@ endfunction()
 # swiftlet_tests(NAME [DEPENDS targets...] [SLOW filter | QUICK filter] [TIMEOUT seconds])
 #   One GoogleTest program test_NAME of every *_test.cpp in tests/NAME; each test of it is a ctest test. What most test
 #   programs read is precompiled by test_precompiled (tests/CMakeLists.txt). Each test has the label NAME and one of two
-#   more: `slow` what SLOW names (or all that QUICK does not), `quick` the others; all quick ones take about 80 s of CPU time.
+#   more: `slow` what SLOW names (or all that QUICK does not), `quick` the others; all quick ones take about a minute on
+#   two cores: no whole flight, no program of its own, no recording.
 function(swiftlet_tests name)
   cmake_parse_arguments(ARG "" "QUICK;SLOW;TIMEOUT" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/${name}/*.cpp")

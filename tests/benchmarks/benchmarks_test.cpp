@@ -52,12 +52,12 @@ TEST_F(RecordedBenchmarks, CamerasBesideTheirReference) {
   }
 }
 
-/// A recording of a simulated walk has what the comparison needs, and nobody loses a camera that is slow.
+/// A recording of a simulated walk has what the comparison needs, and a camera that is slow is not lost.
 TEST_F(RecordedBenchmarks, AWalkThroughASimulatedBuilding) {
   const ProgramEnd walk = runProgram("benchmark_rgbd_walk", {SWIFTLET_SOURCE_DIR "/trials/worlds/mit_lab.sdf",
                                                              path("walk"), "--length", "2", "--speed", "0.3"});
   ASSERT_EQ(walk.exit_code, 0) << describe(walk);
-  const ProgramEnd end = runProgram("benchmark_rgbd_peers", {path("walk"), "--every", "2"});
+  const ProgramEnd end = runProgram("benchmark_rgbd_peers", {path("walk"), "--only", "ours"});
   EXPECT_EQ(end.exit_code, 0) << describe(end);
   EXPECT_THAT(end.out, testing::ContainsRegex("ours, map with loops +0 "));
 }
