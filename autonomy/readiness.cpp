@@ -6,14 +6,16 @@ namespace swiftlet::autonomy {
 
 void Readiness::watch(const Percept& percept, control::FlightController& controller) {
   if (prepared_) return;
-  if (percept.ready && percept.state.horizontal_valid && percept.state.vertical_valid)
+  unprepared_.update(true, percept.now);
+  // A sample of the battery that is lost is followed by another. Where none comes, the check of the take-off says so.
+  const bool measured = percept.battery_v > 0.0 || unprepared_.active();
+  if (percept.ready && percept.state.horizontal_valid && percept.state.vertical_valid && measured)
     prepared_ = controller.command(control::Prepared{}).has_value();
   else
     tellUnprepared(percept);
 }
 
 void Readiness::tellUnprepared(const Percept& percept) {
-  unprepared_.update(true, percept.now);
   if (told_ || !unprepared_.active()) return;
   const std::string why = percept.estimator->whyUnready(percept.now);
   if (why.empty()) return;

@@ -18,7 +18,8 @@ class Readiness {
  public:
   explicit Readiness(common::EventLog& log) : log_(log) {}
 
-  /// Prepares the controller once height and position are known. To be called at each tick.
+  /// Prepares the controller once height and position are known and the battery is measured, or no sample of it came
+  /// for long. To be called at each tick.
   void watch(const Percept& percept, control::FlightController& controller);
 
   bool prepared() const { return prepared_; }

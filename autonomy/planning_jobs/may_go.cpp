@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
 
 #include "common/segment.hpp"
 
@@ -44,9 +47,11 @@ bool anythingIn(const planning::CostMap& map, const common::Disc& disc) {
 struct Thing {
   CellRect rect;
   bool too_large = false;
+  std::vector<Eigen::Vector2d> cells_map_m;  ///< Their centres.
 };
 
-/// Of all that stands by itself, what is as wide as a person.
+/// Of all that stands by itself, what is as wide as a person: free space was seen at both of its ends. A piece of a
+/// wall that was seen in parts has free space before it only.
 class StandingAlone {
  public:
   explicit StandingAlone(const planning::CostMap& map)
@@ -58,7 +63,7 @@ class StandingAlone {
       if (seen_[static_cast<std::size_t>(i)] != 0 || map_.states()[i] != CellState::kOccupied) continue;
       const Thing thing = spread(i);
       const double width_m = std::max(thing.rect.width(), thing.rect.height()) * map_.resolution_m();
-      if (thing.too_large || width_m < kLeastWidth_m) continue;
+      if (thing.too_large || width_m < kLeastWidth_m || !hasFreeEnds(thing)) continue;
       const Eigen::Vector2d low = map_.centerOf(thing.rect.begin);
       const Eigen::Vector2d high = map_.centerOf({thing.rect.end.x - 1, thing.rect.end.y - 1});
       discs.push_back(
@@ -70,12 +75,13 @@ class StandingAlone {
  private:
   Thing spread(int seed) {
     const CellIndex first = map_.cellOf(seed);
-    Thing thing{{first, {first.x + 1, first.y + 1}}};
+    Thing thing{{first, {first.x + 1, first.y + 1}}, false, {}};
     open_.assign(1, seed);
     seen_[static_cast<std::size_t>(seed)] = 1;
     while (!open_.empty()) {
       const CellIndex at = map_.cellOf(open_.back());
       open_.pop_back();
+      thing.cells_map_m.push_back(map_.centerOf(at));
       thing.rect.begin = {std::min(thing.rect.begin.x, at.x), std::min(thing.rect.begin.y, at.y)};
       thing.rect.end = {std::max(thing.rect.end.x, at.x + 1), std::max(thing.rect.end.y, at.y + 1)};
       thing.too_large = thing.rect.width() > most_cells_ || thing.rect.height() > most_cells_;
@@ -90,6 +96,49 @@ class StandingAlone {
         }
     }
     return thing;
+  }
+
+  /// What is longer than wide is seen across its length, anything else across some direction.
+  bool hasFreeEnds(const Thing& thing) const {
+    constexpr double kElongated = 4.0;  // Of the squares: twice as long as wide.
+    constexpr int kDirections = 8;
+    Eigen::Vector2d middle_map_m = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& cell_map_m : thing.cells_map_m) middle_map_m += cell_map_m;
+    middle_map_m /= static_cast<double>(thing.cells_map_m.size());
+    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+    for (const Eigen::Vector2d& cell_map_m : thing.cells_map_m)
+      spread += (cell_map_m - middle_map_m) * (cell_map_m - middle_map_m).transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+    if (axes.eigenvalues()[1] > kElongated * axes.eigenvalues()[0])
+      return areEndsFree(thing, middle_map_m, axes.eigenvectors().col(1));
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle_rad = i * std::numbers::pi / kDirections;
+      if (areEndsFree(thing, middle_map_m, {std::cos(angle_rad), std::sin(angle_rad)})) return true;
+    }
+    return false;
+  }
+
+  /// Of the nine cells beyond an end, a third lies before the line of a wall that goes on there unseen.
+  bool areEndsFree(const Thing& thing, const Eigen::Vector2d& middle_map_m, const Eigen::Vector2d& axis) const {
+    constexpr int kFreeBeyond = 4;
+    double low_m = 0.0, high_m = 0.0;
+    for (const Eigen::Vector2d& cell_map_m : thing.cells_map_m) {
+      const double along_m = axis.dot(cell_map_m - middle_map_m);
+      low_m = std::min(low_m, along_m);
+      high_m = std::max(high_m, along_m);
+    }
+    const double beyond_m = 2.0 * map_.resolution_m();
+    return freeAround(middle_map_m + (low_m - beyond_m) * axis) >= kFreeBeyond &&
+           freeAround(middle_map_m + (high_m + beyond_m) * axis) >= kFreeBeyond;
+  }
+
+  /// Of nine cells.
+  int freeAround(const Eigen::Vector2d& place_map_m) const {
+    const CellIndex middle = map_.cellAt(place_map_m);
+    int free = 0;
+    for (int y = middle.y - 1; y <= middle.y + 1; ++y)
+      for (int x = middle.x - 1; x <= middle.x + 1; ++x) free += map_.states().at({x, y}) == CellState::kFree ? 1 : 0;
+    return free;
   }
 
   const planning::CostMap& map_;

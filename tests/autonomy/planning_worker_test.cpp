@@ -252,6 +252,21 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   EXPECT_EQ(blockedFrontiers(answer).size(), static_cast<std::size_t>(answer.blockage->frontiers));
 }
 
+/// A piece of a wall as wide as a person, beside which nothing was seen, is no one who may go.
+TEST_F(Worker, APieceOfAWallIsNotWaitedFor) {
+  for (int y = 0; y < 80; ++y)
+    for (int x = 80; x < 160; ++x) grid->set({x, y}, common::occupancy::kUnknown);
+  build(0);
+  for (int y : {33, 34, 44, 45}) grid->set({80, y}, common::occupancy::kUnknown);
+  auto answer = ask(ExploreRequest{});
+  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
+    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  }
+  ASSERT_TRUE(answer.exploration->done);
+  EXPECT_FALSE(answer.blockage) << answer.blockage->who;
+}
+
 /// Two doors in the wall, and a person in each; the west wall has a crack.
 TEST_F(Worker, BlockedFrontiersAreToldFromWalledOnesEachWithWhoIsInTheWay) {
   for (int y = 0; y < 80; ++y)
