@@ -43,4 +43,12 @@ std::string extentNote(const interfaces::StoredCloud& cloud) {
   return "";
 }
 
+std::vector<std::string> mapNotes(const std::string& file, const interfaces::StoredCloud& cloud, bool has_scale) {
+  std::vector<std::string> notes = cloud.notes;
+  if (has_scale) return notes;
+  for (const std::string& note : {headerUnitNote(file, cloud), extentNote(cloud)})
+    if (!note.empty()) notes.push_back(note);
+  return notes;
+}
+
 }  // namespace swiftlet::apps

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "interfaces/clouds/stored_cloud.hpp"
 
@@ -16,5 +17,9 @@ std::string headerUnitNote(const std::string& file, const interfaces::StoredClou
 /// Of points that reach too far for a building in metres, or that look like longitude and latitude. Empty for others,
 /// and where the header says another unit.
 std::string extentNote(const interfaces::StoredCloud& cloud);
+
+/// What is odd about a cloud that is to be a map: the notes of its reader, and without a scale that was given both
+/// above.
+std::vector<std::string> mapNotes(const std::string& file, const interfaces::StoredCloud& cloud, bool has_scale);
 
 }  // namespace swiftlet::apps

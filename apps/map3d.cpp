@@ -211,12 +211,6 @@ common::KeyPoses resultKeys(const Map3dRun& run, const MapPiece& piece) {
   return keys;
 }
 
-std::vector<common::Submap3d> submapsOf(Map3dRun& run, const MapPiece& piece) {
-  std::vector<common::Submap3d> submaps = run.mapper.submaps();
-  std::erase_if(submaps, [&](const auto& submap) { return run.mapper.pieceOf(submap.key) != piece.number; });
-  return submaps;
-}
-
 Map3dMap resultsOf(const Map3dRun& run, const MapPiece& piece, const std::vector<common::Submap3d>& submaps) {
   const common::KeyPoses keys = resultKeys(run, piece);
   mapping3d::CloudConfig cloud;
@@ -302,8 +296,8 @@ nlohmann::ordered_json piecesJson(const std::vector<MapPiece>& pieces) {
 }
 
 nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::RgbdFolder& folder, const Map3dRun& run,
-                                 const Map3dTrust& trust, double path_length_m, const std::vector<std::string>& notes,
-                                 const fs::path& out) {
+                                 const std::vector<MapPiece>& pieces, const Map3dTrust& trust, double path_length_m,
+                                 const std::vector<std::string>& notes, const fs::path& out) {
   return {{"folder", options.folder},
           {"format", folder.listing().format},
           {"out", out.string()},
@@ -315,7 +309,7 @@ nlohmann::ordered_json figuresOf(const Map3dOptions& options, const interfaces::
           {"frames_with_pose", run.with_pose},
           {"lost_frames", run.lost},
           {"doubted_frames", run.doubted},
-          {"pieces", piecesJson(run.pieces())},
+          {"pieces", piecesJson(pieces)},
           {"found_again", run.found_again},
           {"key_frames", run.key_frames},
           {"loops", run.loops},
@@ -345,14 +339,15 @@ mapping3d::Mapper3dConfig configOf(const Map3dOptions& options) {
 
 std::vector<std::pair<std::string, std::string>> factsOf(const Map3dOptions& options,
                                                          const interfaces::RgbdFolder& folder, const Map3dRun& run,
-                                                         const Map3dTrust& trust, double path_length_m) {
+                                                         std::size_t pieces, const Map3dTrust& trust,
+                                                         double path_length_m) {
   std::vector<std::pair<std::string, std::string>> facts{{"trusted", trust.reason.empty() ? "yes" : "no"},
                                                          {"format", folder.listing().format},
                                                          {"frames", fmt::format("{}", run.frames)},
                                                          {"skipped", fmt::format("{}", folder.skipped())}};
   if (!run.given.empty()) facts.emplace_back("with a pose", fmt::format("{}", run.with_pose));
   facts.insert(facts.end(), {{"lost", fmt::format("{}", run.lost)},
-                             {"pieces", fmt::format("{}", run.pieces().size())},
+                             {"pieces", fmt::format("{}", pieces)},
                              {"key frames", fmt::format("{}", run.key_frames)},
                              {"loop closures", fmt::format("{}", run.loops)},
                              {"path length", fmt::format("{:.2f} m", path_length_m)},
@@ -375,8 +370,10 @@ int map3d(const Map3dOptions& options) {
   run.given = stretched(givenPoses(options), 1.0 / rate_Hz);
   requireInReach(options, run.given, folder, run.config.voxels);
   mapFolder(folder, options, run);
-  const Map3dTrust trust = map3dTrust(run);
-  Map3dFigures shown{recording.string(), {}, map3dNotes(folder, run, trust), run.milliseconds, run.disagreement};
+  const std::vector<MapPiece> pieces = run.pieces();
+  const Map3dTrust trust = map3dTrust(run, pieces);
+  Map3dFigures shown{
+      recording.string(), {}, map3dNotes(folder, run, pieces, trust), run.milliseconds, run.disagreement};
   if (run.tracked.empty()) {
     for (const std::string& warning : shown.warnings) showError(warning + "\n");
     throw common::InputError({options.folder}, "",
@@ -384,14 +381,13 @@ int map3d(const Map3dOptions& options) {
                                              plural(folder.listing().pairs.size(), "frame", "frames")),
                              map3dRemedy(folder, run));
   }
-  const std::vector<MapPiece> pieces = run.pieces();
   std::vector<common::Trajectory> trajectories;
   for (const MapPiece& piece : pieces)
     trajectories.push_back(stretched(trajectoryOf(run, piece, RecordedCamera(folder.calibration())), rate_Hz));
   const double path_length_m = pathLength_m(trajectories.front());
   if (!options.mesh.empty()) writeSurface(options, folder.listing(), results, pieces.front(), run, shown.warnings);
-  shown.facts = factsOf(options, folder, run, trust, path_length_m);
-  const std::vector<common::Submap3d> submaps = submapsOf(run, pieces.front());
+  shown.facts = factsOf(options, folder, run, pieces.size(), trust, path_length_m);
+  const std::vector<common::Submap3d> submaps = run.submapsOf(pieces.front());
   if (areVoxelsMissing(submaps, run.config.voxels))
     shown.warnings.emplace_back("map.bt is not complete: it would need too much memory at this --resolution");
   ProgressLine line(options.json);
@@ -400,7 +396,7 @@ int map3d(const Map3dOptions& options) {
   results.publish();
   line.close();
   if (options.json) {
-    const auto figures = figuresOf(options, folder, run, trust, path_length_m, shown.warnings, results.path());
+    const auto figures = figuresOf(options, folder, run, pieces, trust, path_length_m, shown.warnings, results.path());
     showJson(figures.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return kDone;
   }

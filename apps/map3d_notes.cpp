@@ -27,11 +27,10 @@ std::string depthQuestion(const RgbdFolder& folder, const Map3dRun& run) {
                      run.medianDepth_m(), folder.calibration().depth_units_per_m);
 }
 
-void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust,
-                 std::vector<std::string>& notes) {
+void noteOnTrack(const RgbdFolder& folder, const Map3dRun& run, const std::vector<MapPiece>& pieces,
+                 const Map3dTrust& trust, std::vector<std::string>& notes) {
   if (!trust.reason.empty()) notes.push_back("the map is probably wrong: " + trust.reason);
   if (trust.is_much_missing) notes.push_back(depthQuestion(folder, run));
-  const auto pieces = run.pieces();
   if (pieces.size() > 1)
     notes.push_back(fmt::format("{} in {} that nothing connects to the map: pieces.txt has their poses",
                                 plural(run.tracked.size() - pieces.front().frames.size(), "frame is", "frames are"),
@@ -121,9 +120,10 @@ std::string remedyOf(FrameFault fault, const RgbdFolder& folder) {
 
 }  // namespace
 
-std::vector<std::string> map3dNotes(const RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust) {
+std::vector<std::string> map3dNotes(const RgbdFolder& folder, const Map3dRun& run, const std::vector<MapPiece>& pieces,
+                                    const Map3dTrust& trust) {
   std::vector<std::string> notes;
-  noteOnTrack(folder, run, trust, notes);
+  noteOnTrack(folder, run, pieces, trust, notes);
   noteOnFocalLength(run, notes);
   noteOnPoses(folder, run, notes);
   noteOnStamps(folder, notes);

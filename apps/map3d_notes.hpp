@@ -11,7 +11,8 @@
 namespace swiftlet::apps {
 
 /// For people; empty if nothing is odd.
-std::vector<std::string> map3dNotes(const interfaces::RgbdFolder& folder, const Map3dRun& run, const Map3dTrust& trust);
+std::vector<std::string> map3dNotes(const interfaces::RgbdFolder& folder, const Map3dRun& run,
+                                    const std::vector<MapPiece>& pieces, const Map3dTrust& trust);
 
 /// What to do about a recording of which no frame was tracked.
 std::string map3dRemedy(const interfaces::RgbdFolder& folder, const Map3dRun& run);

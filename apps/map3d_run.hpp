@@ -68,6 +68,12 @@ struct Map3dRun {
     return pieces;
   }
 
+  std::vector<common::Submap3d> submapsOf(const MapPiece& piece) {
+    std::vector<common::Submap3d> submaps = mapper.submaps();
+    std::erase_if(submaps, [&](const auto& submap) { return mapper.pieceOf(submap.key) != piece.number; });
+    return submaps;
+  }
+
   double medianMs() const { return medianOf(frame_ms); }
   double medianDepth_m() const { return medianOf(depths_m); }
 

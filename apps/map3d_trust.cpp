@@ -25,15 +25,12 @@ std::string whyMissing(const Map3dRun& run, std::size_t in_map, std::size_t piec
 
 }  // namespace
 
-Map3dTrust map3dTrust(Map3dRun& run) {
+Map3dTrust map3dTrust(Map3dRun& run, const std::vector<MapPiece>& pieces) {
   Map3dTrust trust;
-  const auto pieces = run.pieces();
   trust.reason = whyMissing(run, pieces.empty() ? 0 : pieces.front().frames.size(), pieces.size());
   trust.is_much_missing = !trust.reason.empty();
   if (pieces.empty()) return trust;
-  auto submaps = run.mapper.submaps();
-  std::erase_if(submaps, [&](const auto& submap) { return run.mapper.pieceOf(submap.key) != pieces.front().number; });
-  trust.contradiction = mapping3d::contradictionOf(submaps, *run.mapper.scans());
+  trust.contradiction = mapping3d::contradictionOf(run.submapsOf(pieces.front()), *run.mapper.scans());
   if (!trust.reason.empty()) return trust;
   if (const auto factor = run.mapper.betterFocalFactor())
     trust.reason = fmt::format(

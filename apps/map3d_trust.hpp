@@ -14,7 +14,7 @@ struct Map3dTrust {
   mapping3d::MapContradiction contradiction;
 };
 
-/// Once all frames are mapped.
-Map3dTrust map3dTrust(Map3dRun& run);
+/// Once all frames are mapped, in those pieces.
+Map3dTrust map3dTrust(Map3dRun& run, const std::vector<MapPiece>& pieces);
 
 }  // namespace swiftlet::apps

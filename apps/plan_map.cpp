@@ -39,10 +39,7 @@ PlanMap readPlanCloud(const PlanMapOptions& options) {
   const double voxel_m =
       options.resolution_m.value_or(mapping3d::voxelSideOf_m(mapping3d::spacingOf_m(cloud.points, kFarthest_m)));
   PlanMap map;
-  map.notes = cloud.notes;
-  if (!options.scale)
-    for (const std::string& note : {headerUnitNote(options.from, cloud), extentNote(cloud)})
-      if (!note.empty()) map.notes.push_back(note);
+  map.notes = mapNotes(options.from, cloud, options.scale.has_value());
   map.notes.push_back(fmt::format("{} points in voxels of {:g} m{}; where no point is, it is taken as free",
                                   cloud.points.size(), voxel_m, options.resolution_m ? "" : " (--resolution)"));
   const mapping3d::SpaceExtent extent = mapping3d::extentOf(cloud.points, voxel_m, 0);

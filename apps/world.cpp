@@ -201,10 +201,7 @@ class WorldMaker {
     interfaces::CloudPlacement placement;
     placement.scale = options_.scale.value_or(1.0);
     const interfaces::StoredCloud cloud = interfaces::readCloud(options_.from, placement);
-    for (const std::string& note : cloud.notes) tell("note: " + note);
-    if (!options_.scale)
-      for (const std::string& note : {headerUnitNote(options_.from, cloud), extentNote(cloud)})
-        if (!note.empty()) tell("note: " + note);
+    for (const std::string& note : mapNotes(options_.from, cloud, options_.scale.has_value())) tell("note: " + note);
     if (cloud.points.empty()) refuseMap(options_, Message("world.no-points", "it has no points"));
     const double hull_m = 2.0 * scenario_.vehicle.hullRadius_m();
     const double spacing_m = mapping3d::spacingOf_m(cloud.points, hull_m);

@@ -4,30 +4,17 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "fuzz/refused_or.hpp"
 #include "interfaces/files/movingai.hpp"
-
-namespace {
-
-template <typename Read>
-void refusedOr(Read&& read) {
-  try {
-    read();
-  } catch (const swiftlet::common::InputError& error) {
-    if (error.problems().empty()) std::abort();
-  }
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  refusedOr([&] {
+  fuzz::refusedOr([&] {
     const interfaces::OctileMap map = interfaces::parseOctileMap(text, "fuzz.map", 1.0);
     if (common::knownExtent(map.grid) != common::CellRect{{0, 0}, {map.width, map.height}}) std::abort();
   });
-  refusedOr([&] {
+  fuzz::refusedOr([&] {
     for (const interfaces::GridProblem& problem : interfaces::parseGridProblems(text, "fuzz.scen", 49, 49))
       if (problem.start_column < 0 || problem.start_column >= 49 || problem.goal_row < 0 || problem.goal_row >= 49)
         std::abort();

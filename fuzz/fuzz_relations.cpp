@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "common/error.hpp"
+#include "fuzz/refused_or.hpp"
 #include "interfaces/files/relations.hpp"
 #include "interfaces/files/trajectory_file.hpp"
 
@@ -16,28 +16,19 @@ void check(const swiftlet::common::Pose3& pose) {
   if (!isFinite(pose) || std::abs(pose.rotation.norm() - 1.0) > 1e-6) std::abort();
 }
 
-template <typename Read>
-void refusedOr(Read&& read) {
-  try {
-    read();
-  } catch (const swiftlet::common::InputError& error) {
-    if (error.problems().empty()) std::abort();
-  }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace swiftlet;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  refusedOr([&] {
+  fuzz::refusedOr([&] {
     for (const common::Relation& relation : interfaces::parseRelations(text, "fuzz.relations"))
       check(relation.T_from_to);
   });
-  refusedOr([&] {
+  fuzz::refusedOr([&] {
     for (const common::StampedPose& pose : interfaces::parseReferencePoses(text, "fuzz.txt")) check(pose.pose);
   });
-  refusedOr([&] {
+  fuzz::refusedOr([&] {
     for (const common::StampedPose& pose : interfaces::parsePoseMatrices(text, "fuzz.txt").poses) check(pose.pose);
   });
   return 0;

@@ -81,7 +81,7 @@ class StandingAlone {
     while (!open_.empty()) {
       const CellIndex at = map_.cellOf(open_.back());
       open_.pop_back();
-      thing.cells_map_m.push_back(map_.centerOf(at));
+      if (!thing.too_large) thing.cells_map_m.push_back(map_.centerOf(at));
       thing.rect.begin = {std::min(thing.rect.begin.x, at.x), std::min(thing.rect.begin.y, at.y)};
       thing.rect.end = {std::max(thing.rect.end.x, at.x + 1), std::max(thing.rect.end.y, at.y + 1)};
       thing.too_large = thing.rect.width() > most_cells_ || thing.rect.height() > most_cells_;
