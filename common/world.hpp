@@ -16,8 +16,9 @@ struct PeopleLayer;
 struct EnergyLayer;
 struct Map3dLayer;
 struct TargetsLayer;
+struct ObjectsLayer;
 
-/// Only `map3d` is ever null in a World that the autonomy made.
+/// Only `map3d` and `objects` are ever null in a World that the autonomy made.
 struct World {
   Time stamp;
   std::shared_ptr<const VehicleLayer> vehicle;
@@ -27,6 +28,7 @@ struct World {
   std::shared_ptr<const EnergyLayer> energy;
   std::shared_ptr<const Map3dLayer> map3d;  ///< Null without an RGB-D camera or an upright laser.
   std::shared_ptr<const TargetsLayer> targets;
+  std::shared_ptr<const ObjectsLayer> objects;  ///< Null without a recognizer.
 };
 
 }  // namespace swiftlet::common

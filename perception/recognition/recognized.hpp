@@ -6,18 +6,11 @@
 #include <Eigen/Core>
 
 #include "common/geometry.hpp"
+#include "common/passage.hpp"
 
 namespace swiftlet::perception {
 
-/// Whether the vehicle could fly through what was recognized.
-enum class Passage {
-  kNone,  ///< Not an opening, or nothing is known.
-  kOpen,
-  kClosed,
-};
-inline const char* toString(Passage passage) {
-  return passage == Passage::kOpen ? "open" : passage == Passage::kClosed ? "closed" : "none";
-}
+using common::Passage;
 
 struct Recognized {
   std::string what;               ///< Name of the object, as it was given to the recognizer.
