@@ -14,13 +14,17 @@ tree::Registry missionRegistry() {
   addEmergencyLand(registry);
   addExplore(registry);
   addExploreUntilFound(registry);
+  addFindPositionIndoor(registry);
+  addFindWindow(registry);
   addFlightConditions(registry);
+  addFlyThroughWindow(registry);
   addFollowMe(registry);
   addGoHome(registry);
   addHold(registry);
   addInspect(registry);
   addKeepOut(registry);
   addLand(registry);
+  addLeaveByDoor(registry);
   addLoadMap(registry);
   addLocalize(registry);
   addLocateTarget(registry);

@@ -19,6 +19,9 @@ struct Describe {
   std::string operator()(const FollowIntent& i) const {
     return i.until_near ? "return to the person" : "follow a person";
   }
+  std::string operator()(const FlyThroughIntent& i) const {
+    return fmt::format("fly through {} {}", i.what, i.object_id);
+  }
 };
 
 }  // namespace

@@ -106,8 +106,19 @@ struct FollowIntent {
   FlightMode mode = FlightMode::kFast;
 };
 
-using IntentKind = std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent,
-                                RetraceIntent, EmergencyLandIntent, SurveyIntent, InspectIntent, FollowIntent>;
+/// Fly through an opening that was recognized, slowly, at the height of its middle, as it is seen from moment to moment.
+struct FlyThroughIntent {
+  int object_id = 0;       ///< In the World's layer of objects.
+  std::string what = {};   ///< `window`; for texts.
+  double heading_rad = 0;  ///< In `map`, of the flight: into the wall, at most 90 deg from the opening's normal there.
+  double before_m = 1.6;   ///< From the wall to the place on the opening's normal where it turns to the opening.
+  double behind_m = 1.2;   ///< From the wall to the place on its other side where it ends.
+  double clearance_m = 0.10;  ///< Between hull and obstacle.
+};
+
+using IntentKind =
+    std::variant<HoldIntent, TakeOffIntent, LandIntent, ExploreIntent, GoToIntent, AvoidIntent, RetraceIntent,
+                 EmergencyLandIntent, SurveyIntent, InspectIntent, FollowIntent, FlyThroughIntent>;
 
 struct Intent {
   std::uint64_t id = 0;  ///< 0: no behaviour has emitted one; the vehicle holds.

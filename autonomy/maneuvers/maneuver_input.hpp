@@ -16,6 +16,7 @@
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "perception/people/people_tracker.hpp"
 #include "planning/avoidance/avoidance.hpp"
 #include "planning/costs/cost_map.hpp"
@@ -47,6 +48,7 @@ struct ManeuverInput {
   std::shared_ptr<const common::Map3dLayer> map3d = {};               ///< Null without an RGB-D camera.
   /// Why the sensors cannot carry a flight from where the vehicle stands; empty if they can.
   std::function<std::string()> unready = [] { return std::string(); };
+  std::shared_ptr<const common::ObjectsLayer> objects = {};  ///< Recognized; null without a recognizer.
 
   Eigen::Vector2d position_map_m() const { return state.T_map_body_planar().position_m(); }
 };

@@ -19,6 +19,7 @@ std::unique_ptr<Maneuver> maneuverFor(const common::RetraceIntent& intent, const
 std::unique_ptr<Maneuver> maneuverFor(const common::SurveyIntent& intent, const ManeuverSetup& setup);
 std::unique_ptr<Maneuver> maneuverFor(const common::InspectIntent& intent, const ManeuverSetup& setup);
 std::unique_ptr<Maneuver> maneuverFor(const common::FollowIntent& intent, const ManeuverSetup& setup);
+std::unique_ptr<Maneuver> maneuverFor(const common::FlyThroughIntent& intent, const ManeuverSetup& setup);
 
 /// Makes the maneuver of an intent.
 std::unique_ptr<Maneuver> makeManeuver(const common::IntentKind& kind, const ManeuverSetup& setup);
