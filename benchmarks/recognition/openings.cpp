@@ -13,8 +13,8 @@
 #include <Eigen/LU>
 
 #include "common/quantile.hpp"
+#include "perception/recognition/object_tracker.hpp"
 #include "perception/recognition/opening_recognizer.hpp"
-#include "perception/recognition/opening_tracker.hpp"
 
 namespace swiftlet::benchmarks {
 namespace {
@@ -209,26 +209,28 @@ struct TrackCounts {
 /// Looks at one item of the room from several places, and judges what is confirmed as open.
 void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& counts) {
   perception::OpeningRecognizer recognizer({});
-  perception::OpeningTracker tracker;
+  perception::ObjectTracker tracker;
+  const common::KeyPoses keys{1, {{}}};
   std::vector<int> due(scene.items.size(), 0);
   for (const HouseScene& one : perception::looksAround(scene, rays)) {
     const perception::HouseView view = perception::look(one, rays);
     tracker.add(recognizer.recognize(
                     {nullptr, &view.scan, &view.frame, one.R_level_camera, one.T_camera_laser(), &view.behind_m}),
-                one.T_house_camera(), 0.02);
+                {0, one.T_house_camera(), 0.02, {}, keys});
     for (std::size_t i = 0; i < scene.items.size(); ++i) {
       const ItemInView seen = perception::inView(one, scene.items[i], rays);
       if (scene.items[i].isOpen() && seen.whole && seen.size_px >= kCovered_px) ++due[i];
     }
   }
   std::vector<bool> found(scene.items.size(), false);
-  for (const perception::TrackedOpening& opening : tracker.openings()) {
+  for (const common::RecognizedObject& opening : tracker.objects(keys)) {
     if (opening.passage != Passage::kOpen) continue;
-    const PlacedItem* item = itemAt(scene, opening.centre_map_m);
-    if (item && item->isOpen() && isAt(*item, opening.centre_map_m)) {
+    const Eigen::Vector3d& centre_m = opening.T_map_object.position_m;
+    const PlacedItem* item = itemAt(scene, centre_m);
+    if (item && item->isOpen() && isAt(*item, centre_m)) {
       ++counts.right;
       found[static_cast<std::size_t>(item - scene.items.data())] = true;
-      counts.error_m.push_back((opening.centre_map_m - item->centre_m()).head<2>().norm());
+      counts.error_m.push_back((centre_m - item->centre_m()).head<2>().norm());
     } else {
       ++counts.wrong;
       ++counts.wrong_of[item ? nameOf(item->kind) : "elsewhere"];

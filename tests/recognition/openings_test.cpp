@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "perception/recognition/mirror_check.hpp"
-#include "perception/recognition/opening_tracker.hpp"
 #include "tests/recognition/house_scene.hpp"
 
 namespace swiftlet::perception {
@@ -93,58 +92,6 @@ common::LaserScan squareRoom(double half_m) {
         static_cast<float>(half_m / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)))));
   }
   return scan;
-}
-
-Recognized window(const Eigen::Vector3d& at_camera_m, Passage passage, double confidence = 0.9) {
-  Recognized one;
-  one.what = "window";
-  one.T_sensor_object.position_m = at_camera_m;
-  one.covariance.setIdentity();
-  one.covariance *= 0.0004;
-  one.confidence = confidence;
-  one.size_m = {0.9, 1.0};
-  one.passage = passage;
-  return one;
-}
-
-common::Pose3 aside(double y_m) { return {Eigen::Quaterniond::Identity(), {0.0, y_m, 0.0}}; }
-
-TEST(OpeningTracker, ConfirmsAfterLooksFromThreePlaces) {
-  OpeningTracker tracker;
-  for (const double y : {0.0, 0.05, 0.1}) tracker.add({window({2.0, -y, 0.0}, Passage::kOpen)}, aside(y), 0.02);
-  ASSERT_EQ(tracker.openings().size(), 1U);
-  EXPECT_EQ(tracker.openings()[0].passage, Passage::kNone) << "one place";
-  for (const double y : {0.3, 0.6}) tracker.add({window({2.02, -y, 0.0}, Passage::kOpen)}, aside(y), 0.02);
-  ASSERT_EQ(tracker.openings().size(), 1U);
-  const TrackedOpening opening = tracker.openings()[0];
-  EXPECT_EQ(opening.passage, Passage::kOpen);
-  EXPECT_EQ(opening.what, "window");
-  EXPECT_NEAR(opening.centre_map_m.x(), 2.013, 0.002);
-  EXPECT_LT(opening.covariance_m2(0, 0), 0.0006);
-}
-
-TEST(OpeningTracker, DoesNotConfirmWhatNoLookToldFromAMirror) {
-  OpeningTracker tracker;
-  for (const double y : {0.0, 0.3, 0.6, 0.9})
-    tracker.add({window({2.0, -y, 0.0}, Passage::kOpen, 0.45)}, aside(y), 0.02);
-  EXPECT_EQ(tracker.openings().at(0).passage, Passage::kNone);
-}
-
-TEST(OpeningTracker, OneLookAtItsReflectionMakesAMirror) {
-  OpeningTracker tracker;
-  for (const double y : {0.0, 0.3, 0.6}) tracker.add({window({2.0, -y, 0.0}, Passage::kOpen, 0.45)}, aside(y), 0.02);
-  Recognized mirror = window({2.0, -0.9, 0.0}, Passage::kClosed);
-  mirror.what = "mirror";
-  tracker.add({mirror}, aside(0.9), 0.02);
-  EXPECT_EQ(tracker.openings().at(0).what, "mirror");
-  EXPECT_EQ(tracker.openings().at(0).passage, Passage::kNone);
-}
-
-TEST(OpeningTracker, AShutterThatIsSeenClosedMoreOftenIsClosed) {
-  OpeningTracker tracker;
-  tracker.add({window({2.0, 0.0, 0.0}, Passage::kOpen)}, aside(0.0), 0.02);
-  for (const double y : {0.3, 0.6}) tracker.add({window({2.0, -y, 0.0}, Passage::kClosed)}, aside(y), 0.02);
-  EXPECT_EQ(tracker.openings().at(0).passage, Passage::kClosed);
 }
 
 TEST(MirrorCheck, TellsAReflectionFromARoomBehind) {
