@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/check.hpp"
+#include "common/random.hpp"
 #include "simulation/variation.hpp"
 
 namespace swiftlet::simulation {
@@ -19,8 +20,7 @@ Arena::Arena(Realization&& realization, const Scenario& scenario)
   for (PlacedVehicle& placed : realization.vehicles)
     seats_.push_back({std::make_unique<VehicleModel>(std::move(placed), world_, rays_), Time(), false});
   addPeople(scenario);
-  for (const DoorConfig& door : scenario.doors)
-    doors_.emplace_back(door, seats_.front().model->placed().T_world_map.position_m.z());
+  addDoors(scenario);
   stepDoors();
   for (std::size_t i = 0; i < seats_.size(); ++i) seats_[i].model->begin(aroundVehicle(i));
 }
@@ -34,6 +34,14 @@ void Arena::addPeople(const Scenario& scenario) {
     const PlacedVehicle& vehicle = seats_[walked_around_.back()].model->placed();
     walkers_.emplace_back(config, scenario.seed, i, vehicle.T_world_map.position_m.z(),
                           vehicle.scenario.vehicle.hullRadius_m(), rays_);
+  }
+}
+
+void Arena::addDoors(const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.doors.size(); ++i) {
+    DoorConfig door = scenario.doors[i];
+    if (common::RandomStream(scenario.seed, "door", i).chance(door.closed_share)) door.closed_s = {0.0};
+    doors_.emplace_back(door, seats_.front().model->placed().T_world_map.position_m.z());
   }
 }
 

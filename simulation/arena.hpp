@@ -77,6 +77,7 @@ class Arena {
 
   Arena(Realization&& realization, const Scenario& scenario);
   void addPeople(const Scenario& scenario);
+  void addDoors(const Scenario& scenario);
   void stepTo(common::Time time);
   void step();
   void stepPeople();

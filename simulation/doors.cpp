@@ -22,6 +22,7 @@ void DoorConfig::describe(common::config::Fields& fields) {
   fields("closed_s", closed_s, {0, 1e6},
          "Times at which the door closes, opens, closes and so on; before the first it is open. It waits until no "
          "vehicle is within 0.5 m.");
+  fields("closed_share", closed_share, {0, 1}, "Share of the seeds in which it is closed all the time.");
 }
 
 std::vector<common::Problem> DoorConfig::validate() const {
@@ -29,7 +30,8 @@ std::vector<common::Problem> DoorConfig::validate() const {
       std::adjacent_find(closed_s.begin(), closed_s.end(), std::greater_equal<double>()) == closed_s.end();
   return common::Validation()
       .require(!name.empty(), "name", Message("door.no-name", "is missing"))
-      .require(!closed_s.empty(), "closed_s", Message("door.never-closes", "is empty: when does the door close?"))
+      .require(!closed_s.empty() || closed_share > 0.0, "closed_s",
+               Message("door.never-closes", "is empty: when does the door close?"))
       .require(rises, "closed_s", Message("door.not-in-order", "is not in the order of time"))
       .problems();
 }

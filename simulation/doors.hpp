@@ -22,6 +22,7 @@ struct DoorConfig {
   double thickness_m = 0.05;
   /// Times at which it closes, opens, closes and so on.
   std::vector<double> closed_s = {};
+  double closed_share = 0.0;  ///< Of the seeds, in which it is closed all the time.
 
   void describe(common::config::Fields& fields);
   std::vector<common::Problem> validate() const;

@@ -16,6 +16,7 @@ struct Look {
   bool glass = false;
   std::optional<Pattern> pattern = {};
   std::string image = {};  ///< A file; empty if there is none.
+  bool mirror = false;
 };
 
 /// The colour of a visual's material, if it has one.

@@ -159,6 +159,7 @@ struct RayCaster::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<Geometry> geometries;
+  std::vector<bool> mirrors;  ///< By shape; empty if none is a mirror.
 
   ~Impl() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -197,6 +198,8 @@ struct RayCaster::Impl {
 
 RayCaster::RayCaster(const WorldModel& world) : impl_(std::make_unique<Impl>()) {
   for (const Shape& shape : world.shapes) impl_->add(shape);
+  if (std::any_of(world.shapes.begin(), world.shapes.end(), [](const Shape& shape) { return shape.mirror; }))
+    for (const Shape& shape : world.shapes) impl_->mirrors.push_back(shape.mirror);
   impl_->build();
 }
 RayCaster::~RayCaster() = default;
@@ -205,6 +208,38 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 Hit RayCaster::cast(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
                     std::span<const Actor> actors) const {
+  const Hit hit = castDirectly(origin_world_m, direction_world, max_m, actors);
+  return isMirror(hit) ? reflected(origin_world_m, direction_world, max_m, actors, hit) : hit;
+}
+
+bool RayCaster::isMirror(const Hit& hit) const {
+  const auto shape = static_cast<std::size_t>(hit.shape);
+  return hit && shape < impl_->mirrors.size() && impl_->mirrors[shape];
+}
+
+Hit RayCaster::reflected(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
+                         std::span<const Actor> actors, Hit hit) const {
+  constexpr int kMostReflections = 8;  // Between two mirrors; bounds the work of a ray.
+  constexpr double kStep_m = 1e-3;     // Off the surface: single-precision rays are coarser than it is exact.
+  Eigen::Vector3d origin = origin_world_m, direction = direction_world;
+  Eigen::Matrix3d as_seen = Eigen::Matrix3d::Identity();
+  double passed_m = 0.0;
+  for (int i = 0; i < kMostReflections && isMirror(hit); ++i) {
+    const Eigen::Vector3d normal = hit.normal_world.cast<double>();
+    origin += hit.distance_m * direction + kStep_m * normal;
+    direction -= 2.0 * direction.dot(normal) * normal;
+    as_seen *= Eigen::Matrix3d::Identity() - 2.0 * normal * normal.transpose();
+    passed_m += hit.distance_m;
+    hit = passed_m < max_m ? castDirectly(origin, direction, max_m - passed_m, actors) : Hit{};
+  }
+  if (isMirror(hit)) return {};
+  hit.distance_m += passed_m;  // Stays infinite where nothing is hit.
+  hit.normal_world = (as_seen * hit.normal_world.cast<double>()).cast<float>();
+  return hit;
+}
+
+Hit RayCaster::castDirectly(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
+                            std::span<const Actor> actors) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit query{};
@@ -243,6 +278,13 @@ Hit RayCaster::cast(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d
 void RayCaster::castAll(std::span<const Ray> rays, double max_m, std::span<const Actor> actors,
                         std::span<float> distances_m) const {
   SWIFTLET_CHECK(rays.size() == distances_m.size(), rays.size(), distances_m.size());
+  if (!impl_->mirrors.empty()) {
+    std::vector<Hit> hits(rays.size());
+    castAll(rays, max_m, actors, hits);
+    std::transform(hits.begin(), hits.end(), distances_m.begin(),
+                   [](const Hit& hit) { return static_cast<float>(hit.distance_m); });
+    return;
+  }
   castPackets(impl_->scene, rays, max_m, [&](std::size_t i, const RTCRayHit4& packet, std::size_t k) {
     const bool missed = packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID;
     distances_m[i] = missed ? std::numeric_limits<float>::infinity() : packet.ray.tfar[k];
@@ -269,6 +311,11 @@ void RayCaster::castAll(std::span<const Ray> rays, double max_m, std::span<const
     if (hit.distance_m < hits[i].distance_m)
       hits[i] = {hit.distance_m, static_cast<int>(impl_->geometries.size() + actor), hit.normal.cast<float>()};
   });
+  if (impl_->mirrors.empty()) return;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (isMirror(hits[i]))
+      hits[i] = reflected(rays[i].origin_world_m.cast<double>(), rays[i].direction_world.cast<double>(), max_m, actors,
+                          hits[i]);
 }
 
 Clearance RayCaster::sweep(const Hull& hull, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m,

@@ -1,5 +1,6 @@
 // Rays and hull against the world. Static triangles are in an Embree scene pinned to one instruction set, so that the
-// same ray gives the same range on every machine. People, vehicles and doors are tested exactly and separately.
+// same ray gives the same range on every machine. People, vehicles and doors are tested exactly and separately. A ray
+// that meets a mirror goes on as it is reflected.
 #pragma once
 
 #include <limits>
@@ -49,7 +50,8 @@ struct NearestSurface {
   Eigen::Vector3d normal_world = Eigen::Vector3d::UnitZ();  ///< Of its triangle; either side.
 };
 
-/// Const and without state: safe to use from several threads at once.
+/// Const and without state: safe to use from several threads at once. In a mirror a ray sees the virtual image: the
+/// distance is that along the reflected ray, and the normal is reflected back.
 class RayCaster {
  public:
   explicit RayCaster(const WorldModel& world);
@@ -78,6 +80,14 @@ class RayCaster {
   NearestSurface nearest(const Eigen::Vector3d& point_world_m, double limit_m) const;
 
  private:
+  /// The nearest surface, be it a mirror.
+  Hit castDirectly(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
+                   std::span<const Actor> actors) const;
+  bool isMirror(const Hit& hit) const;
+  /// What the ray sees whose nearest surface is `hit`.
+  Hit reflected(const Eigen::Vector3d& origin_world_m, const Eigen::Vector3d& direction_world, double max_m,
+                std::span<const Actor> actors, Hit hit) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -40,6 +40,8 @@ using common::Problem;
 
 /// The element of ours in a material, which other readers of SDF ignore.
 constexpr const char* kTextureElement = "swiftlet:texture";
+/// The word in it of what reflects; it is no pattern.
+constexpr const char* kMirrorWord = "mirror";
 
 /// Where a part of a model is.
 struct Scope {
@@ -174,6 +176,7 @@ class Loader {
     const sdf::Material* material = visual->Material();
     const bool see_through = material != nullptr && material->Element() && material->Element()->HasElement("diffuse") &&
                              material->Diffuse().A() <= kHalf;
+    if (textureWord(material) == kMirrorWord) return {colorOf(visual), false, Pattern::kBlank, {}, true};
     return {colorOf(visual), see_through || visual->Transparency() >= kHalf, patternOf(material), imageOf(material)};
   }
 
@@ -205,18 +208,25 @@ class Loader {
     world_.warnings.push_back(std::move(problem));
   }
 
+  /// Nothing without the element.
+  static std::optional<std::string> textureWord(const sdf::Material* material) {
+    if (material == nullptr || !material->Element() || !material->Element()->HasElement(kTextureElement))
+      return std::nullopt;
+    return material->Element()->Get<std::string>(kTextureElement);
+  }
+
   std::optional<Pattern> patternOf(const sdf::Material* material) {
     if (material == nullptr) return std::nullopt;
-    if (!material->Element() || !material->Element()->HasElement(kTextureElement))
-      return scriptPattern(material->ScriptName());
-    const auto word = material->Element()->Get<std::string>(kTextureElement);
-    const std::optional<Pattern> pattern = patternFrom(word);
+    const auto word = textureWord(material);
+    if (!word) return scriptPattern(material->ScriptName());
+    const std::optional<Pattern> pattern = patternFrom(*word);
     if (!pattern) {
-      const std::string similar = common::didYouMean(word, patternWords());
-      problems_.push_back(
-          {locationOf(material->Element(), world_.file), kTextureElement,
-           Message("world.no-texture", "there is no texture `{}`", word),
-           similar.empty() ? fmt::format("expected is one of {}", fmt::join(patternWords(), ", ")) : similar});
+      std::vector<std::string> words = patternWords();
+      words.emplace_back(kMirrorWord);
+      const std::string similar = common::didYouMean(*word, words);
+      problems_.push_back({locationOf(material->Element(), world_.file), kTextureElement,
+                           Message("world.no-texture", "there is no texture `{}`", *word),
+                           similar.empty() ? fmt::format("expected is one of {}", fmt::join(words, ", ")) : similar});
     }
     return pattern;
   }
@@ -301,6 +311,7 @@ class Loader {
                 const Look& look = {}) {
     Shape shape{scope.top, scope.path + link, source, color, {}, triangles.indices, look.glass, look.pattern};
     shape.T_world_shape = T_world_item;
+    shape.mirror = look.mirror;
     shape.image = look.image;
     shape.vertices_world_m.reserve(triangles.vertices_m.size());
     for (const Eigen::Vector3f& vertex : triangles.vertices_m)

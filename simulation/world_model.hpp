@@ -45,6 +45,7 @@ struct Shape {
   std::vector<Eigen::Vector2f> image_places = {};  ///< Of the vertices in the images of their materials, see Mesh.
   common::Pose3 T_world_shape = {};                ///< Of the frame in which patterns keep their place on it.
   bool terrain = false;                            ///< Of a heightmap: what is beneath it is ground.
+  bool mirror = false;                             ///< Laser and cameras see what it reflects.
 };
 
 /// "model/part".
@@ -82,7 +83,7 @@ enum class IncompleteWorld { kRefused, kAllowed };
 /// cylinders, spheres, capsules, ellipsoids, cones, planes, polylines, heightmaps and meshes are triangulated. The
 /// collision geometry of a link is used, or its visual geometry if it has none. A visual with `<transparency>` of 0.5
 /// or more, or with a diffuse alpha of 0.5 or less, is glass, as is the collision geometry that goes with it. A
-/// material's `<swiftlet:texture>` names a Pattern, and its albedo map or the textures of a mesh are pictures for the
+/// material's `<swiftlet:texture>` names a Pattern or is `mirror`, and its albedo map or the textures of a mesh are pictures for the
 /// cameras. A picture that is not there is left out, with a warning if a pointer of Git LFS or the like stands for it.
 /// The poses of a `<state>` that Gazebo classic saved replace those of the models. `model://`, `file://` and Fuel URIs
 /// are searched for as UriResolver does. The sun needs no file; the well-known ground plane is replaced by one at z = 0
