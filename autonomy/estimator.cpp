@@ -10,6 +10,7 @@
 
 #include "autonomy/estimation/camera_support.hpp"
 #include "common/config_fields.hpp"
+#include "common/validation.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -34,8 +35,19 @@ void EstimatorConfig::describe(common::config::Fields& fields) {
   fields.section("rgbd", rgbd, "The 3D map from the frames of an RGB-D camera.");
   fields.section("vertical_laser", vertical_laser, "The 3D map from a second laser whose scan plane stands upright.");
   fields.section("targets", targets, "Coloured targets that the RGB-D camera looks for.");
+  fields.list("recognition", recognition,
+              "What the camera recognizes: windows and doors in depths, and patterns in pictures; none by default.");
   fields("slam_latency_s", slam_latency_s, {0.01, 10},
          "Declared time of a SLAM job, of the method graph: loop search, optimization and redrawing the map.");
+}
+
+std::vector<common::Problem> EstimatorConfig::validate() const {
+  common::Validation validation;
+  for (std::size_t i = 0; i < recognition.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      validation.require(recognition[i].name != recognition[j].name, "recognition",
+                         common::Message("config.name-twice", "two are called `{}`", recognition[i].name));
+  return validation.problems();
 }
 
 Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& laser,
@@ -50,7 +62,7 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs, log),
       localizer_(given, config.localization, jobs, log),
-      space_({config.rgbd, config.vertical_laser, config.targets}, camera, vertical_laser, jobs, log),
+      space_({config.rgbd, config.vertical_laser, config.targets, config.recognition, laser}, camera, vertical_laser, jobs, log),
       poses_(*filter_),
       uncertainty_(*filter_) {}
 
@@ -85,7 +97,9 @@ bool Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
 
 void Estimator::updateMap3d(Time now, const common::PlaceNames& names) {
   if (const auto step = space_.takeStep(map_.keyPoses(), now)) fuse(*step, now);
-  space_.map({poses_, map_.keyPoses(), people_, uncertainty_.drift_m(), names}, now);
+  space_.map({poses_, map_.keyPoses(), people_, uncertainty_.drift_m(), names,
+              space_.recognizes() ? map_.grid() : nullptr},
+             now);
 }
 
 /// While the vehicle stands still, its first scans start the filter.
@@ -99,6 +113,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
     return std::nullopt;
   }
   if (!start_.isCovered(scan)) return std::nullopt;
+  space_.add(scan);
   if (filter_->atRest()) start_.look(scan, filter_->state().T_odom_body.rotation);
   ScanOutcome outcome;
   outcome.scan = project(scan);
@@ -177,6 +192,7 @@ EstimatedMaps Estimator::maps() {
   maps.levels = altitude_.levels();
   maps.map3d = space_.layer(maps.key_poses);
   maps.targets = space_.targets(*maps.key_poses);
+  maps.objects = space_.objects(*maps.key_poses);
   if (localizer_) maps.localization = localizer_->localization();
   return maps;
 }

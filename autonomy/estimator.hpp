@@ -5,7 +5,7 @@
 //                \--> altitude over levels -----------> fuse ---^   v
 //                 \--> map <-------------------------- pose at the scan --> localize in a given map
 //                       \--> people, for the next scan
-//   RGB-D frame --> 3D map, and targets, at the pose of its own time
+//   RGB-D frame --> 3D map, targets and recognized objects, at the pose of its own time
 //   sweep of an upright laser --> 3D map, at the poses of its beams' own times
 //
 // Each step is a small object that takes values and returns values; only the Estimator uses the filter.
@@ -56,9 +56,11 @@ struct EstimatorConfig {
   RgbdPipelineConfig rgbd;
   VerticalLaserPipelineConfig vertical_laser;
   TargetPipelineConfig targets;
+  std::vector<perception::KnownObjectConfig> recognition;
   double slam_latency_s = 0.4;
 
   void describe(common::config::Fields& fields);
+  std::vector<common::Problem> validate() const;
 };
 
 /// The results of one scan.
@@ -89,7 +91,8 @@ struct EstimatedMaps {
   /// Null without a camera and an upright laser, and before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> map3d;
   std::vector<common::Target> targets;               ///< Targets that the profile names, as the camera has seen them.
-  std::optional<common::Localization> localization;  ///< nullopt without a given map.
+  std::shared_ptr<const common::ObjectsLayer> objects;  ///< Null unless the profile names something to recognize.
+  std::optional<common::Localization> localization;     ///< nullopt without a given map.
 };
 
 /// What the parts have counted so far.

@@ -21,6 +21,7 @@
 #include "common/time.hpp"
 #include "common/vehicle_state.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "control/emergency_descent.hpp"
 
@@ -50,6 +51,7 @@ struct Surroundings {
   std::shared_ptr<const common::LevelMap> levels;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without a sensor for it.
   std::vector<common::Target> targets;
+  std::shared_ptr<const common::ObjectsLayer> objects;  ///< Null unless something is recognized.
 };
 
 /// Pointers are valid until the senses get their next input.

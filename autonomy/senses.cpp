@@ -134,6 +134,7 @@ Surroundings Senses::surroundings(Time now, const common::VehicleState& state) {
   around.levels = std::move(maps.levels);
   around.map3d = std::move(maps.map3d);
   around.targets = std::move(maps.targets);
+  around.objects = std::move(maps.objects);
   return around;
 }
 

@@ -25,6 +25,7 @@ WorldParts partsOf(const Percept& percept, const Commander& commander, const Nav
   parts.people.followed_map_m = aim.person_map_m;
   parts.map3d = around.map3d;
   parts.targets.targets = around.targets;
+  parts.objects = around.objects;
   parts.energy = commander.energy(percept, navigator, last);
   return parts;
 }

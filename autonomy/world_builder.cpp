@@ -64,6 +64,7 @@ std::shared_ptr<const common::World> WorldBuilder::build(common::Time now, World
   replace(last_.energy, parts.energy);
   last_.map3d = std::move(parts.map3d);
   replace(last_.targets, std::move(parts.targets));
+  if (!parts.objects || !last_.objects || !same(*last_.objects, *parts.objects)) last_.objects = parts.objects;
   return std::make_shared<const common::World>(last_);
 }
 

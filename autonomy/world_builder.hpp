@@ -12,6 +12,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/people_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -28,6 +29,7 @@ struct WorldParts {
   common::EnergyLayer energy;
   std::shared_ptr<const common::Map3dLayer> map3d;  ///< Null without an RGB-D camera.
   common::TargetsLayer targets;
+  std::shared_ptr<const common::ObjectsLayer> objects = nullptr;  ///< Null without a recognizer.
 };
 
 /// One thread; any thread may read the snapshots.

@@ -15,11 +15,15 @@ SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig*
                           : nullptr),
       targets_(rgbd_ && !config.targets.classes.empty()
                    ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m, log)
-                   : nullptr) {}
+                   : nullptr),
+      recognition_(camera && !config.recognition.empty()
+                       ? std::make_unique<RecognitionPipeline>(config.recognition, *camera, config.laser, jobs, log)
+                       : nullptr) {}
 
 bool SpaceSensors::add(std::shared_ptr<const common::RgbdFrame> frame) {
   if (stereo_) stereo_->add(frame, frame->stamps.arrived);
   if (!rgbd_ || !rgbd_->add(frame)) return false;
+  if (recognition_) recognition_->add(frame);
   if (targets_) targets_->add(std::move(frame));
   return true;
 }
@@ -46,6 +50,7 @@ void SpaceSensors::forgetClone() {
 void SpaceSensors::map(const MapSituation& situation, Time now) {
   if (rgbd_) mapFrame(situation, now);
   if (targets_) lookForTargets(situation, now);
+  if (recognition_) recognize(situation, now);
   if (vertical_laser_) mapSweeps(situation, now);
 }
 
@@ -73,6 +78,21 @@ void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
     targets_->look(situationAt(*time, situation, now), camera, situation.drift_m, now);
 }
 
+common::CameraEstimate SpaceSensors::anyCamera() const {
+  return rgbd_ ? rgbd_->camera() : common::CameraEstimate{stereo_->T_body_camera()};
+}
+
+void SpaceSensors::recognize(const MapSituation& situation, Time now) {
+  recognition_->report(*situation.keys, situation.names, now);
+  if (stereo_)
+    if (auto frame = stereo_->takeFrame()) recognition_->add(std::move(frame));
+  const common::CameraEstimate camera = anyCamera();
+  const auto time = recognition_->next(camera.clock_offset_s);
+  if (time && situation.poses.isKnown(*time, now, recognition_->waitUntil()))
+    recognition_->look(situationAt(*time, situation, now), camera.T_body_camera, *time,
+                       {situation.poses, situation.grid, situation.drift_m}, now);
+}
+
 void SpaceSensors::mapSweeps(const MapSituation& situation, Time now) {
   for (auto times = vertical_laser_->next();
        times && situation.poses.isKnown(times->end, now, vertical_laser_->waitUntil());
@@ -91,6 +111,10 @@ std::shared_ptr<const common::Map3dLayer> SpaceSensors::layer(const std::shared_
 
 std::vector<common::Target> SpaceSensors::targets(const common::KeyPoses& keys) const {
   return targets_ ? targets_->targets(keys) : std::vector<common::Target>();
+}
+
+std::shared_ptr<const common::ObjectsLayer> SpaceSensors::objects(const common::KeyPoses& keys) const {
+  return recognition_ ? recognition_->layer(keys) : nullptr;
 }
 
 }  // namespace swiftlet::autonomy

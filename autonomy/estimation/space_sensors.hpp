@@ -1,6 +1,6 @@
 // The sensors of the third dimension, an RGB-D camera or else an upright laser: each frame and sweep waits until the
-// pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too. Pairs of a
-// stereo camera measure the motion alone.
+// pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too, and what
+// the profile names is recognized. Pairs of a stereo camera measure the motion, and show patterns.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "autonomy/estimation/odometry_step.hpp"
 #include "autonomy/estimation/pose_track.hpp"
+#include "autonomy/estimation/recognition_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
 #include "autonomy/estimation/stereo_pipeline.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
@@ -16,6 +17,7 @@
 #include "common/event_log.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
+#include "common/occupancy_grid.hpp"
 #include "common/place_names.hpp"
 #include "common/rgbd_camera_config.hpp"
 #include "common/rgbd_frame.hpp"
@@ -23,6 +25,7 @@
 #include "common/time.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "perception/people/people_tracker.hpp"
 
@@ -35,6 +38,7 @@ struct MapSituation {
   const perception::PeopleTracker& people;
   double drift_m = 0.0;  ///< See DriftMonitor.
   common::PlaceNames names;
+  std::shared_ptr<const common::OccupancyGrid> grid = nullptr;  ///< Null unless something is recognized.
 };
 
 /// One thread. Its jobs refer to it.
@@ -44,6 +48,8 @@ class SpaceSensors {
     const RgbdPipelineConfig& rgbd;
     const VerticalLaserPipelineConfig& vertical_laser;
     const TargetPipelineConfig& targets;
+    const std::vector<perception::KnownObjectConfig>& recognition;
+    const common::LaserConfig& laser;  ///< Data sheet of the level laser.
   };
   /// Data sheets; null without that sensor. With a camera an upright laser is not used.
   SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera, const common::LaserConfig* vertical_laser,
@@ -53,6 +59,10 @@ class SpaceSensors {
   [[nodiscard]] bool add(std::shared_ptr<const common::RgbdFrame> frame);
   /// Without an upright laser the sweep is ignored.
   void add(std::shared_ptr<const common::VerticalScan> sweep);
+  /// A scan of the level laser, for what is recognized.
+  void add(const common::LaserScan& scan) {
+    if (recognition_) recognition_->add(scan);
+  }
 
   bool hasCamera() const { return rgbd_ || stereo_; }
   /// Mount and clock; only with an RGB-D camera.
@@ -84,6 +94,9 @@ class SpaceSensors {
   /// Null before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> layer(const std::shared_ptr<const common::KeyPoses>& keys);
   std::vector<common::Target> targets(const common::KeyPoses& keys) const;
+  bool recognizes() const { return recognition_ != nullptr; }
+  /// Null unless something is recognized.
+  std::shared_ptr<const common::ObjectsLayer> objects(const common::KeyPoses& keys) const;
   /// nullopt without a camera.
   std::optional<RgbdCounts> counts() const { return rgbd_ ? std::optional(rgbd_->counts()) : std::nullopt; }
   /// nullopt without a camera whose frames come over a radio.
@@ -95,12 +108,15 @@ class SpaceSensors {
   static FrameSituation situationAt(common::Time time, const MapSituation& situation, common::Time now);
   void mapFrame(const MapSituation& situation, common::Time now);
   void lookForTargets(const MapSituation& situation, common::Time now);
+  void recognize(const MapSituation& situation, common::Time now);
+  common::CameraEstimate anyCamera() const;
   void mapSweeps(const MapSituation& situation, common::Time now);
 
   std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera, and with a stereo camera.
   std::unique_ptr<StereoPipeline> stereo_;                 ///< Null without a stereo camera.
   std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
   std::unique_ptr<TargetPipeline> targets_;  ///< Null without an RGB-D camera, and without targets to look for.
+  std::unique_ptr<RecognitionPipeline> recognition_;  ///< Null without a camera, and without anything to recognize.
   std::optional<common::Time> camera_doubted_;
   std::optional<common::Time> placed_;  ///< See placedByStereo.
 };

@@ -28,9 +28,10 @@ struct StereoPipeline::Job {
 
   Outcome work(const common::RgbdFrame& pair, bool forget) {
     if (forget) odometry.forget();
-    const auto frame = matcher.match(pair);
-    if (!frame) return {frame.error(), {}, {}};
-    return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera)};
+    auto matched = matcher.match(pair);
+    if (!matched) return {matched.error(), {}, {}};
+    const auto frame = std::make_shared<const common::RgbdFrame>(*std::move(matched));
+    return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera), frame};
   }
 
   vision::StereoMatcher matcher;
@@ -70,6 +71,7 @@ void StereoPipeline::watch(Time now) {
 
 /// What a pair of before the clones were forgotten measures starts from one of them.
 void StereoPipeline::take(const Outcome& outcome, Time delivered) {
+  frame_ = outcome.frame;
   CameraStep step;
   const perception::VisualStep& seen = outcome.step;
   const Message missing = missingOf(outcome, delivered);

@@ -45,6 +45,9 @@ class StereoPipeline {
   void watch(common::Time now);
   /// What the last pair tells the filter, without a measurement if it showed no motion; nullopt if it was taken before.
   std::optional<CameraStep> take() { return std::exchange(step_, std::nullopt); }
+  /// The left picture of the last pair, rectified, with depths; null if it was taken before, or without a usable one.
+  std::shared_ptr<const common::RgbdFrame> takeFrame() { return std::exchange(frame_, nullptr); }
+  const common::Pose3& T_body_camera() const { return T_body_camera_; }
   /// See StereoScale::addBeams.
   void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
     scale_.addBeams(stamp, below_m, R_level_body);
@@ -58,6 +61,7 @@ class StereoPipeline {
     common::Message fault;  ///< Of the pair; without a name for one that could be used.
     perception::VisualStep step;
     std::vector<Eigen::Vector3f> below_body_m;  ///< See pointsBelow_body_m.
+    std::shared_ptr<const common::RgbdFrame> frame = nullptr;  ///< Null for a pair that could not be used.
   };
   void take(const Outcome& outcome, common::Time delivered);
   common::Message missingOf(const Outcome& outcome, common::Time delivered);
@@ -76,6 +80,7 @@ class StereoPipeline {
   StereoScale scale_;
   bool forget_ = false;
   std::optional<CameraStep> step_;
+  std::shared_ptr<const common::RgbdFrame> frame_;  ///< See takeFrame.
 };
 
 /// The motion of the body that carries the camera, as a measurement for the filter.

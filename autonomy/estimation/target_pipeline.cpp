@@ -14,8 +14,6 @@ using common::Duration;
 using common::Time;
 
 constexpr const char* kTargets = "targets";
-/// A frame waits this long for a scan that is not older, as the frames of the 3D map do by default.
-constexpr double kWait_s = 0.05;
 /// Least time from one frame that is looked at to the next: six a second see a target from several places.
 constexpr double kLookPeriod_s = 0.15;
 /// Declared time for looking at one frame (see common/jobs.hpp): three to five times what it takes.
@@ -49,42 +47,30 @@ TargetPipeline::TargetPipeline(const TargetPipelineConfig& config, common::JobRu
       jobs_(jobs),
       detector_(std::make_shared<const perception::TargetDetector>(config.classes)),
       tracker_(config.tracker, config.classes, range_m),
+      frames_(kLookPeriod_s),
       log_(log) {}
 
-void TargetPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {
-  if (last_taken_ && frame->stamps.measured < *last_taken_ + Duration::fromSeconds(kLookPeriod_s)) return;
-  if (waiting_ && frame->stamps.measured <= waiting_->stamps.measured) return;
-  waiting_ = std::move(frame);
-}
-
 std::optional<Time> TargetPipeline::next(double clock_offset_s) const {
-  if (!waiting_ || !jobs_.idle(kTargets)) return std::nullopt;
-  return waiting_->stamps.measured + waiting_->row_time * (waiting_->camera.height_px / 2) -
-         Duration::fromSeconds(clock_offset_s);
+  return jobs_.idle(kTargets) ? frames_.next(clock_offset_s) : std::nullopt;
 }
-
-Time TargetPipeline::waitUntil() const { return waiting_->stamps.arrived + Duration::fromSeconds(kWait_s); }
 
 void TargetPipeline::look(const FrameSituation& situation, const common::CameraEstimate& camera, double drift_m,
                           Time now) {
-  const std::shared_ptr<const common::RgbdFrame> frame = std::exchange(waiting_, nullptr);
-  last_taken_ = frame->stamps.measured;
-  if (!situation.at_key || !situation.body || !situation.supported) return;
-  Place place{situation.at_key->key, situation.at_key->T_key_body * camera.T_body_camera, drift_m,
-              situation.body->motion.rate_body_rad_s.norm(), situation.keys};
+  auto placed = frames_.take(situation, camera.T_body_camera, drift_m);
+  if (!placed) return;
   jobs_.submit(kTargets, now, Duration::fromSeconds(kLookLatency_s),
-               [this, detector = detector_, frame, place = std::move(place)]() -> common::JobRunner::Deliver {
-                 return [this, frame, place, sightings = detector->detect(*frame)](Time delivered) {
-                   take(sightings, *frame, place, delivered);
+               [this, detector = detector_, placed = *std::move(placed)]() -> common::JobRunner::Deliver {
+                 return [this, placed, sightings = detector->detect(*placed.frame)](Time delivered) {
+                   take(sightings, placed, delivered);
                  };
                });
 }
 
-void TargetPipeline::take(const std::vector<perception::TargetSighting>& sightings, const common::RgbdFrame& frame,
-                          const Place& place, Time delivered) {
-  tracker_.add(sightings,
-               {frame, place.key, place.T_key_camera, place.position_sigma_m, place.turn_rate_rad_s, *place.keys});
-  for (const common::Target& target : tracker_.targets(*place.keys)) {
+void TargetPipeline::take(const std::vector<perception::TargetSighting>& sightings, const PlacedFrame& placed,
+                          Time delivered) {
+  tracker_.add(sightings, {*placed.frame, placed.key, placed.T_key_camera, placed.position_sigma_m,
+                           placed.turn_rate_rad_s, *placed.keys});
+  for (const common::Target& target : tracker_.targets(*placed.keys)) {
     if (target.state != common::TargetState::kFound) continue;
     if (std::find(found_.begin(), found_.end(), target.id) != found_.end()) continue;
     found_.push_back(target.id);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/frame_queue.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event_log.hpp"
 #include "common/jobs.hpp"
@@ -43,12 +43,11 @@ class TargetPipeline {
   TargetPipeline& operator=(const TargetPipeline&) = delete;
 
   /// Of frames that RgbdPipeline::add accepts. A newer one replaces the one that waits.
-  void add(std::shared_ptr<const common::RgbdFrame> frame);
-  /// The time at which the frame that is next was measured, by the flight's clock; nullopt without one, or while
-  /// another one is being processed. `clock_offset_s` is how late the camera's clock is.
+  void add(std::shared_ptr<const common::RgbdFrame> frame) { frames_.add(std::move(frame)); }
+  /// See FrameQueue::next; nullopt also while another frame is being processed.
   std::optional<common::Time> next(double clock_offset_s) const;
-  /// Until then it is worth waiting for a scan of its time. Only if there is a next one.
-  common::Time waitUntil() const;
+  /// See FrameQueue::waitUntil.
+  common::Time waitUntil() const { return frames_.waitUntil(); }
   /// Looks for targets in that frame. Without a pose that a measurement supports it is left out.
   void look(const FrameSituation& situation, const common::CameraEstimate& camera, double drift_m, common::Time now);
 
@@ -57,28 +56,19 @@ class TargetPipeline {
   void reportFound(const common::PlaceNames& names);
 
  private:
-  /// Where a frame was taken.
-  struct Place {
-    int key = 0;
-    common::Pose3 T_key_camera;
-    double position_sigma_m = 0.0;
-    double turn_rate_rad_s = 0.0;
-    std::shared_ptr<const common::KeyPoses> keys;
-  };
   struct Found {
     common::Time at;
     common::Target target;
   };
-  void take(const std::vector<perception::TargetSighting>& sightings, const common::RgbdFrame& frame,
-            const Place& place, common::Time delivered);
+  void take(const std::vector<perception::TargetSighting>& sightings, const PlacedFrame& placed,
+            common::Time delivered);
 
   TargetPipelineConfig config_;
   common::JobRunner& jobs_;
   std::shared_ptr<const perception::TargetDetector> detector_;
   perception::TargetTracker tracker_;
-  std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
-  std::optional<common::Time> last_taken_;            ///< When the last frame that was looked at was measured.
-  std::vector<int> found_;                            ///< The ids of those that were reported.
+  FrameQueue frames_;
+  std::vector<int> found_;  ///< The ids of those that were reported.
   std::vector<Found> unreported_;
   common::EventLog& log_;
 };

@@ -216,7 +216,7 @@ void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& co
     const perception::HouseView view = perception::look(one, rays);
     tracker.add(recognizer.recognize(
                     {nullptr, &view.scan, &view.frame, one.R_level_camera, one.T_camera_laser(), &view.behind_m}),
-                {0, one.T_house_camera(), 0.02, {}, keys});
+                {0, one.T_house_camera(), 0.0, 0.0, {}, keys});
     for (std::size_t i = 0; i < scene.items.size(); ++i) {
       const ItemInView seen = perception::inView(one, scene.items[i], rays);
       if (scene.items[i].isOpen() && seen.whole && seen.size_px >= kCovered_px) ++due[i];

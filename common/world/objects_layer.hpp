@@ -40,6 +40,9 @@ inline bool operator==(const RecognizedObject& a, const RecognizedObject& b) {
          a.last_seen == b.last_seen && a.confirmed == b.confirmed;
 }
 
+/// "window 3".
+inline std::string labelOf(const RecognizedObject& object) { return object.what + " " + std::to_string(object.id); }
+
 struct ObjectsLayer {
   std::vector<RecognizedObject> objects;  ///< In the order of their ids.
 

@@ -30,6 +30,8 @@ constexpr double kFarthest_m = 1.0;
 /// targets.
 constexpr double kAttitudeSigma_rad = 0.5 * common::kRadPerDeg, kMountSigma_rad = 0.6 * common::kRadPerDeg;
 constexpr double kInverseDepthSigma_1_m = 0.001;
+/// Standard deviations of the vehicle's place in its map, and of the time of a picture, which matters in turns.
+constexpr double kPlaceSigma_m = 0.02, kTimeSigma_s = 0.004;
 /// So many of the places from which an object was seen are compared with the next one.
 constexpr std::size_t kPlacesKept = 64;
 
@@ -82,6 +84,8 @@ ObjectTracker::Measured ObjectTracker::measured(const Recognized& one, const Obj
   const Eigen::Matrix3d R = T_key_camera.rotation.toRotationMatrix();
   const Eigen::Vector3d& p = one.T_sensor_object.position_m;
   const Eigen::Matrix3d turning = common::skew(p);
+  const double angle_rad2 =
+      common::square(kAttitudeSigma_rad) + common::square(view.turn_rate_rad_s * kTimeSigma_s);
   Measured m;
   m.place.point_m = T_key_camera * p;
   m.place.by_shared.leftCols<3>() = -R * turning;
@@ -89,12 +93,13 @@ ObjectTracker::Measured ObjectTracker::measured(const Recognized& one, const Obj
       isOpeningName(one.what) ? Eigen::Vector3d(R * (-p.x() * p)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   m.place.covariance_m2 = R *
                               (one.covariance.bottomRightCorner<3, 3>() +
-                               common::square(kAttitudeSigma_rad) * turning * turning.transpose()) *
+                               angle_rad2 * turning * turning.transpose()) *
                               R.transpose() +
-                          common::square(view.position_sigma_m) * Eigen::Matrix3d::Identity();
+                          (common::square(kPlaceSigma_m) + common::square(view.position_sigma_m)) *
+                              Eigen::Matrix3d::Identity();
   m.rotation = (T_key_camera.rotation * one.T_sensor_object.rotation).normalized();
   const Eigen::Matrix3d turned = R * one.covariance.topLeftCorner<3, 3>() * R.transpose();
-  m.heading_variance_rad2 = std::max(0.0, turned(2, 2)) + common::square(kAttitudeSigma_rad);
+  m.heading_variance_rad2 = std::max(0.0, turned(2, 2)) + angle_rad2;
   return m;
 }
 

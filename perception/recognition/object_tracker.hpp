@@ -27,7 +27,8 @@ namespace swiftlet::perception {
 struct ObjectView {
   int key = 0;                    ///< Index of the key scan that the pose refers to.
   common::Pose3 T_key_camera;     ///< In the frame of that key scan.
-  double position_sigma_m = 0.0;  ///< Of the camera's place in the map.
+  double position_sigma_m = 0.0;  ///< Of the camera's place in the map, beside the noise of a match.
+  double turn_rate_rad_s = 0.0;   ///< Of the camera.
   common::Time stamp;
   const common::KeyPoses& keys;
 };

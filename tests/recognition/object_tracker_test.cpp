@@ -35,7 +35,7 @@ Pose3 aside(double y_m) { return {Eigen::Quaterniond::Identity(), {0.0, y_m, 0.0
 class Looks {
  public:
   void add(const std::vector<Recognized>& recognized, const Pose3& T_key_camera, double time_s = 0.0) {
-    tracker_.add(recognized, {0, T_key_camera, 0.02, common::Time::fromSeconds(time_s), keys});
+    tracker_.add(recognized, {0, T_key_camera, 0.0, 0.0, common::Time::fromSeconds(time_s), keys});
   }
   std::vector<RecognizedObject> objects() const { return tracker_.objects(keys); }
 
@@ -135,14 +135,14 @@ TEST(ObjectTracker, ACorrectionOfTheMapMovesItAndMergesWhatWasSeenTwice) {
   common::KeyPoses keys{1, {{}, {{}, {0.0, 1.0, 0.0}, {}}}};
   ObjectTracker tracker;
   for (const double y : {0.0, 0.3, 0.6}) {
-    tracker.add({window(2.0, -y, Passage::kOpen)}, {0, aside(y), 0.02, {}, keys});
-    tracker.add({window(2.0, -y, Passage::kOpen)}, {1, aside(y), 0.02, {}, keys});
+    tracker.add({window(2.0, -y, Passage::kOpen)}, {0, aside(y), 0.0, 0.0, {}, keys});
+    tracker.add({window(2.0, -y, Passage::kOpen)}, {1, aside(y), 0.0, 0.0, {}, keys});
   }
   ASSERT_EQ(tracker.objects(keys).size(), 2U);
   EXPECT_NEAR(tracker.objects(keys)[1].T_map_object.position_m.y(), 1.0, 1e-6);
   keys.keys[1].T_map_key = {0.0, 0.05, 0.0};
   EXPECT_NEAR(tracker.objects(keys)[1].T_map_object.position_m.y(), 0.05, 1e-6);
-  tracker.add({}, {0, aside(0.0), 0.02, {}, keys});
+  tracker.add({}, {0, aside(0.0), 0.0, 0.0, {}, keys});
   ASSERT_EQ(tracker.objects(keys).size(), 1U);
   EXPECT_EQ(tracker.objects(keys)[0].id, 1);
 }
