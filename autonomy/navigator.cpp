@@ -94,7 +94,7 @@ void Navigator::carryOut(const Decision& decision, const Percept& percept, const
                   estimator.people().discs(percept.now), estimator.people().anyMoves(), reactive_.decision(),
                   decision.spare_s, percept.drift_m, decision.take_off_refusal, estimator.people().obstacles(),
                   &estimator.people().seen(), keep_out.zones(), common::PlaceNames::in(around.T_map_given),
-                  around.map3d, [&estimator, now = percept.now] { return estimator.whyUnready(now); }});
+                  around.map3d, [&estimator, now = percept.now] { return estimator.whyUnready(now); }, around.objects});
   // With more drift the walls are not where the map has them.
   const bool knows_walls = percept.drift_m < kDriftBack_m;
   controller_.setEscape(knows_walls ? executor_.escape_map_m(percept.state) : Eigen::Vector2d(Eigen::Vector2d::Zero()));

@@ -210,7 +210,7 @@ Status FindWindow::found(tree::TickContext& context, const RecognizedObject& win
   place_.set(tree::Point{named_m.x(), named_m.y(), middle_map_m.z()});
   tick.say(common::Severity::kInfo, fmt::format("window {} found", window.id),
            fmt::format("open, {:.2f} m wide, at {}, by {} looks", window.size_m.x(),
-                       tick.flight.world->map->names().of(middle_map_m.head<2>()), window.looks));
+                       tick.flight.world->map->names().of(Eigen::Vector2d(middle_map_m.head<2>())), window.looks));
   return Status::kSuccess;
 }
 

@@ -1,9 +1,9 @@
 // LeaveByDoor: to a place outside, through a door (Tomic 2012, Fig. 4, the fall-back of leaving by the window). SUCCESS
 // outside. The way is planned in the map, so a door that is closed in it is not flown through.
 //
-//   an open door is confirmed near its stored place --> to a place behind it --\
-//       ^ recognized on the way                                                 +--> to the place outside --> SUCCESS
-//   none is: to the stored place of the door, where the laser sees outside ----/
+//   an open door is confirmed near its stored place --> to a place behind it --> to the place outside --> SUCCESS
+//       ^ recognized on the way                                                       ^
+//   none is: to the stored place of the door, from where the laser sees outside ------+
 #include "behaviors/leaves.hpp"
 
 #include <optional>

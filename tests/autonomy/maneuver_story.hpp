@@ -130,7 +130,8 @@ class ManeuverStory : public testing::Test {
             keep_out_,
             names_,
             map3d_,
-            [this] { return unready_; }};
+            [this] { return unready_; },
+            objects_};
   }
 
   common::Time now_;
@@ -146,6 +147,7 @@ class ManeuverStory : public testing::Test {
   common::PlaceNames names_;
   std::shared_ptr<const common::Map3dLayer> map3d_;
   std::string unready_;  ///< Why the sensors cannot carry a flight.
+  std::shared_ptr<const common::ObjectsLayer> objects_;  ///< Null without a recognizer.
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;
   double spare_s_ = 1000.0;

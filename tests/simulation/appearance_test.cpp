@@ -128,6 +128,13 @@ TEST(WorldTextures, AreNamedInTheMaterial) {
   EXPECT_THAT(world.warnings, testing::IsEmpty()) << "other readers, and this one, take the element as it is";
 }
 
+TEST(WorldTextures, AMirrorIsNamedAsOne) {
+  const TemporaryFolder folder("world_textures");
+  const WorldModel world = loadWorld(folder.write("w.sdf", withTexture("mirror")));
+  EXPECT_TRUE(world.shapes.at(0).mirror);
+  EXPECT_FALSE(loadWorld(folder.write("w.sdf", withTexture("brick"))).shapes.at(0).mirror);
+}
+
 TEST(WorldTextures, AnUnknownOneIsRefusedWithItsLine) {
   const TemporaryFolder folder("world_textures");
   const std::string file = folder.write("w.sdf", withTexture("brik"));

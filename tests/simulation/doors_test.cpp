@@ -37,6 +37,29 @@ TEST(DoorConfig, NeedsANameAndTimesInOrder) {
   EXPECT_THAT(scenario.validate(), HasProblem("config.name-twice", "doors", "`hall`"));
 }
 
+/// A shutter, for example: of a window that some flights find closed.
+TEST(Doors, AreClosedAllTheTimeInTheirShareOfTheSeeds) {
+  Scenario scenario;
+  scenario.doors = {doorAcross({})};
+  scenario.doors[0].closed_share = 0.33;
+  EXPECT_TRUE(common::config::problemsOf(scenario.doors[0]).empty());
+  int closed = 0;
+  for (int seed = 1; seed <= 60; ++seed) {
+    scenario.seed = seed;
+    const auto isClosed = [&] {
+      SimulatedVehicle vehicle(boxRoom(), scenario);
+      std::vector<common::SensorEvent> events;
+      EXPECT_TRUE(vehicle.advanceTo(Time::fromSeconds(0.1), events));
+      return !vehicle.truth().closed_doors.empty();
+    };
+    const bool drawn = isClosed();
+    EXPECT_EQ(isClosed(), drawn) << "the same for a seed";
+    closed += drawn ? 1 : 0;
+  }
+  EXPECT_GT(closed, 10);
+  EXPECT_LT(closed, 30);
+}
+
 TEST(Doors, AreWhereRaysMeetTheSameBoxOfTriangles) {
   DoorConfig config{.name = "any", .x_m = 0.7, .y_m = -0.4, .yaw_deg = 25.0, .width_m = 1.4, .thickness_m = 0.3};
   const Door door(config, 0.1);

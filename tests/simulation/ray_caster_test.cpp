@@ -57,6 +57,62 @@ double bruteForce(const WorldModel& world, const Vector3d& origin, const Vector3
   return nearest;
 }
 
+/// A room of 4 m by 4 m by 3 m with a mirror on the wall at x = 4 m shows itself as a room behind that wall would.
+TEST(RayCaster, SeesAMirrorAsTheRoomBehindIt) {
+  WorldModel with_mirror, behind;
+  const auto add = [](WorldModel& world, const Vector3d& low, const Vector3d& high, bool mirror = false) {
+    world.shapes.push_back(boxShape("wall", low, high));
+    world.shapes.back().mirror = mirror;
+  };
+  for (WorldModel* world : {&with_mirror, &behind}) {
+    add(*world, {-0.1, -2, 0}, {0, 2, 3});
+    add(*world, {0, -2.1, 0}, {4, -2, 3});
+    add(*world, {0, 2, 0}, {4, 2.1, 3});
+    add(*world, {1, 0.5, 0}, {1.5, 1, 1.2});
+  }
+  add(with_mirror, {4, -2, 0}, {4.02, 2, 3}, true);
+  add(behind, {8, -2, 0}, {8.1, 2, 3});
+  add(behind, {4, -2.1, 0}, {8, -2, 3});
+  add(behind, {4, 2, 0}, {8, 2.1, 3});
+  add(behind, {6.5, 0.5, 0}, {7, 1, 1.2});
+  const RayCaster mirror(with_mirror), room(behind);
+  RandomStream random(3, "rays");
+  std::vector<Ray> rays;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d from(random.uniform(2, 3.9), random.uniform(-1.5, 1.5), random.uniform(0.5, 2));
+    const Vector3d to(random.uniform(6, 8), random.uniform(-1.9, 1.9), random.uniform(0.1, 2.5));
+    rays.push_back({from.cast<float>(), (to - from).normalized().cast<float>()});
+  }
+  std::vector<Hit> hits(rays.size());
+  std::vector<float> distances_m(rays.size());
+  mirror.castAll(rays, 30.0, {}, hits);
+  mirror.castAll(rays, 30.0, {}, distances_m);
+  int boxes = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Vector3d from = rays[i].origin_world_m.cast<double>(), direction = rays[i].direction_world.cast<double>();
+    const Hit seen = mirror.cast(from, direction, 30.0), wanted = room.cast(from, direction, 30.0);
+    ASSERT_EQ(static_cast<bool>(seen), static_cast<bool>(wanted)) << i;
+    if (!wanted) continue;
+    EXPECT_NEAR(seen.distance_m, wanted.distance_m, 5e-3) << i;
+    EXPECT_NEAR(seen.normal_world.dot(wanted.normal_world), 1.0F, 1e-4F) << i;
+    EXPECT_EQ(hits[i].distance_m, seen.distance_m);
+    EXPECT_EQ(distances_m[i], static_cast<float>(seen.distance_m));
+    boxes += seen.shape == 3 ? 1 : 0;
+  }
+  EXPECT_GT(boxes, 20) << "the box before the mirror is seen in it";
+  EXPECT_FALSE(mirror.cast({2, 0, 1}, Vector3d::UnitX(), 2.5)) << "what it shows is farther than that";
+  EXPECT_LT(mirror.nearest({3.8, 0, 1}, 1.0).distance_m, 0.201) << "and it is touched where it is";
+}
+
+TEST(RayCaster, EndsBetweenTwoMirrors) {
+  WorldModel world;
+  for (const double x : {0.0, 1.0}) {
+    world.shapes.push_back(boxShape("mirror", {x, -2, 0}, {x + 0.02, 2, 3}));
+    world.shapes.back().mirror = true;
+  }
+  EXPECT_FALSE(RayCaster(world).cast({0.5, 0, 1}, Vector3d::UnitX(), 1e4));
+}
+
 TEST(RayCaster, GivesTheDistanceToTheWallsOfARoom) {
   const RayCaster rays(boxRoom());
   const Hit east = rays.cast({1, 2, 1}, {1, 0, 0}, 30);
