@@ -9,6 +9,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/people_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
@@ -24,6 +25,7 @@ struct Layers {
   common::EnergyLayer energy;
   std::shared_ptr<const common::Map3dLayer> map3d;
   common::TargetsLayer targets;
+  std::shared_ptr<const common::ObjectsLayer> objects;  ///< Null: nothing is recognized.
 
   /// Default values, with a map in which everything is unknown.
   Layers() {
@@ -40,7 +42,8 @@ struct Layers {
         people(*world.people),
         energy(*world.energy),
         map3d(world.map3d),
-        targets(*world.targets) {}
+        targets(*world.targets),
+        objects(world.objects) {}
 
   common::World world() const {
     return {stamp,
@@ -50,7 +53,8 @@ struct Layers {
             std::make_shared<const common::PeopleLayer>(people),
             std::make_shared<const common::EnergyLayer>(energy),
             map3d,
-            std::make_shared<const common::TargetsLayer>(targets)};
+            std::make_shared<const common::TargetsLayer>(targets),
+            objects};
   }
 };
 
