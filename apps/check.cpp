@@ -17,7 +17,9 @@
 #include "behaviors/tree/drawing.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
+#include "common/data_paths.hpp"
 #include "common/error.hpp"
+#include "common/topological_map.hpp"
 #include "flight/files_of_kind.hpp"
 #include "flight/given_map.hpp"
 #include "flight/leaf_libraries.hpp"
@@ -32,6 +34,7 @@ struct CheckOptions {
   std::vector<std::string> missions;
   std::vector<std::string> leaves;
   std::string system = "swiftlet";
+  std::string places;
   std::string dry_run;  ///< The script; empty: none.
   std::string draw;     ///< The SVG; empty: none.
   bool headless = false;
@@ -73,22 +76,25 @@ tree::TreeFiles treesOf(const std::vector<NamedMission>& missions) {
 }
 
 /// What is odd about the maps that a mission may load is a warning, a map that cannot be used a problem.
-void addMapNotes(const std::string& file, const behaviors::NodeTypes& types, behaviors::MissionVerdict& verdict) {
+void addMapNotes(const std::string& file, const behaviors::MissionLimits& limits, const behaviors::NodeTypes& types,
+                 behaviors::MissionVerdict& verdict) {
   try {
-    append(flight::mapNotes(behaviors::Mission::fromFile(file, types).mapFiles(), file), verdict.warnings);
+    append(flight::mapNotes(behaviors::Mission::fromFile(file, limits, types).mapFiles(), file), verdict.warnings);
   } catch (const common::InputError& unusable) {
     append(unusable.problems(), verdict.problems);
   }
 }
 
 behaviors::MissionVerdict judge(const NamedMission& mission, const CheckOptions& options, const flight::System& system,
-                                const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
+                                const behaviors::NodeTypes& types, const tree::TreeFiles& together,
+                                const std::shared_ptr<const common::TopologicalMap>& places) {
   if (mission.file.empty()) return {mission.problems, {}, {}};
   behaviors::MissionLimits limits = flight::missionLimits(system, true);
   limits.operator_goes_on = limits.operator_gives_goals = !options.headless;
+  limits.places = places;
   if (options.mock_leaves) return behaviors::judgeMissionWithMocks(mission.file, limits, *types, together);
   behaviors::MissionVerdict verdict = behaviors::judgeMission(mission.file, limits, *types, together);
-  if (verdict.problems.empty()) addMapNotes(mission.file, types, verdict);
+  if (verdict.problems.empty()) addMapNotes(mission.file, limits, types, verdict);
   return verdict;
 }
 
@@ -119,13 +125,14 @@ void add(std::vector<tree::Problem>& all, const std::vector<tree::Problem>& foun
 }
 
 CheckReport reportOn(const CheckOptions& options, const std::vector<NamedMission>& missions,
-                     const behaviors::NodeTypes& types, const tree::TreeFiles& together) {
+                     const behaviors::NodeTypes& types, const tree::TreeFiles& together,
+                     const std::shared_ptr<const common::TopologicalMap>& places) {
   const flight::System system = flight::loadSystem(options.system);
   CheckReport report;
   append(flight::problemsOfSensors(system), report.problems);
   if (options.mock_leaves) add(report.warnings, together.warnings);
   for (const NamedMission& mission : missions) {
-    behaviors::MissionVerdict verdict = judge(mission, options, system, types, together);
+    behaviors::MissionVerdict verdict = judge(mission, options, system, types, together, places);
     add(report.problems, verdict.problems);
     add(report.warnings, verdict.warnings);
     if (!verdict.whose.empty()) report.nodes[mission.name] = std::move(verdict.whose);
@@ -168,7 +175,13 @@ int check(const CheckOptions& options) {
   const std::vector<NamedMission> missions = find(options.missions);
   tree::ParseOptions parsing;
   parsing.trees_elsewhere = treesOf(missions);
-  const CheckReport report = reportOn(options, missions, types, parsing.trees_elsewhere);
+  std::shared_ptr<const common::TopologicalMap> places;
+  if (!options.places.empty()) {
+    places = std::make_shared<const common::TopologicalMap>(
+        common::readTopologicalMap(common::findData(options.places).string()));
+    parsing.host_entries = places->names();
+  }
+  const CheckReport report = reportOn(options, missions, types, parsing.trees_elsewhere, places);
   if (!options.draw.empty() && report.problems.empty()) draw(options, *types, missions.front().file, parsing);
   if (!options.dry_run.empty() && report.problems.empty()) {
     if (!options.json) print(report, missions.size());
@@ -192,6 +205,8 @@ void addCheck(Command& program) {
       program.command("check", "Validate missions without flying; every error and every warning with its place.");
   command.arguments("missions", options->missions, "Mission files.");
   command.option("--system", options->system, "The profile they are to be flown with.");
+  command.option("--places", options->places,
+                 "The topological map they are to be flown with, whose places they name.");
   command.leavesOption(options->leaves);
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "

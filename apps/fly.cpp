@@ -4,6 +4,7 @@
 
 #include <fmt/color.h>
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/command.hpp"
@@ -13,6 +14,7 @@
 #include "apps/start_option.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
+#include "common/topological_map.hpp"
 #include "common/printable.hpp"
 #include "common/rounding.hpp"
 #include "common/world.hpp"
@@ -47,6 +49,7 @@ struct FlyOptions {
   std::string start;  ///< Empty: the scenario's, or that of the world.
   std::string scenario;
   std::string map;
+  std::string places;
   std::string system;  ///< Empty: the first of the scenario's trial, or swiftlet.
   std::string nature;  ///< Empty: the first of the scenario, or real.
   std::optional<double> battery;
@@ -212,6 +215,20 @@ nlohmann::json endJson(const simulated_flight::FlightResult& result) {
   return {{"outcome", result.done() ? "done" : "failed"}, {"run", result.folder.string()}, {"vehicles", vehicles}};
 }
 
+/// "window 1 open at (2.00, 0.10, 1.30), red 1 at ...": what was found and recognized; empty without any.
+std::string foundText(const interfaces::FlightSummary& summary) {
+  std::vector<std::string> found;
+  const auto at = [](const Eigen::Vector3d& p) { return fmt::format(" at ({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
+  for (const common::Target& target : summary.targets)
+    if (target.state == common::TargetState::kFound) found.push_back(labelOf(target) + at(target.position_map_m));
+  for (const common::RecognizedObject& object : summary.objects)
+    if (object.confirmed)
+      found.push_back(labelOf(object) +
+                      (object.passage == common::Passage::kNone ? "" : std::string(" ") + toString(object.passage)) +
+                      at(object.T_map_object.position_m));
+  return fmt::format("{}", fmt::join(found, ", "));
+}
+
 void printEnd(const flight::VehicleResult& vehicle) {
   const interfaces::FlightSummary& summary = vehicle.summary;
   const std::optional<double>& explored_m2 = summary.explored_area_m2;
@@ -220,6 +237,7 @@ void printEnd(const flight::VehicleResult& vehicle) {
                    summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
                    summary.distance_m, explored_m2 ? fmt::format(", {:.1f} m2 explored", *explored_m2) : "",
                    summary.realtime_factor.value_or(0.0)));
+  if (const std::string found = foundText(summary); !found.empty()) show("found   " + found + "\n");
   show(fmt::format("run     {}\nreport  {}\n", vehicle.folder.string(), (vehicle.folder / "report.html").string()));
 }
 
@@ -228,14 +246,25 @@ void printEnd(const simulated_flight::FlightResult& result, bool json) {
   for (const flight::VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
 }
 
+std::shared_ptr<const common::TopologicalMap> placesOf(const FlyOptions& options) {
+  if (options.places.empty()) return nullptr;
+  auto places =
+      std::make_shared<const common::TopologicalMap>(common::readTopologicalMap(common::findData(options.places).string()));
+  if (places->frame == common::PlacesFrame::kGiven && options.map.empty())
+    throw common::InputError({options.places}, "frame",
+                             common::Message("places.no-map", "they are those of a given map, and the flight has none"),
+                             "give it that map: --map MAP.yaml");
+  return places;
+}
+
 /// What `check` warns of does not keep the vehicle on the ground.
-void showWarnings(const std::vector<flight::FlightMission>& missions, const flight::System& system,
-                  const tree::Registry& types, bool headless) {
+void showWarnings(const std::vector<flight::FlightMission>& missions, const flight::FlightSetup& setup, bool headless) {
   behaviors::MissionLimits limits;
-  limits.unseen_below_m = flight::unseenBelow_m(system);
+  limits.unseen_below_m = flight::unseenBelow_m(setup.system);
+  limits.places = setup.places;
   limits.operator_goes_on = limits.operator_gives_goals = !headless;
   for (const flight::FlightMission& mission : missions) {
-    for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits, types).warnings)
+    for (const tree::Problem& warning : behaviors::judgeMission(mission.file, limits, *setup.types).warnings)
       showError(lineOf(warning, true));
     showNotes(flight::mapNotes(mission.mission.mapFiles(), mission.file));
   }
@@ -254,8 +283,9 @@ std::unique_ptr<flight::WebLink> servePage(const FlyOptions& options, const simu
 
 int fly(const FlyOptions& options) {
   simulated_flight::SimulatedSetup setup = setupOf(options);
+  setup.places = placesOf(options);
   std::vector<flight::FlightMission> missions = simulated_flight::soundMissions(setup, !options.map.empty());
-  showWarnings(missions, setup.system, *setup.types, options.headless);
+  showWarnings(missions, setup, options.headless);
   if (!options.map.empty()) {
     setup.map = std::make_shared<const flight::FlightMap>(flight::readFlightMap(options.map));
     showNotes(setup.map->notes);
@@ -321,6 +351,9 @@ void addFly(Command& program) {
                  "profile, nature and charge.");
   command.option("--map", options->map,
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
+  command.option("--places", options->places,
+                 "A topological map (topological_map.yaml of a run), whose places, passages and danger zones the mission "
+                 "may name: goal=\"{kitchen}\".");
   command.option("--system", options->system,
                  "A profile of config/systems, or a file. Default: the scenario's, or swiftlet.");
   command.option(

@@ -21,6 +21,10 @@
 #include "common/vehicle_config.hpp"
 #include "control/flight_controller.hpp"
 
+namespace swiftlet::common {
+struct TopologicalMap;
+}
+
 namespace swiftlet::autonomy {
 
 /// Ticks of the mission's tree a second: a leaf answers within two scans of a laser at 40 Hz.
@@ -60,6 +64,7 @@ struct AutonomySetup {
   const VehicleMemory* memory = nullptr;  ///< What earlier flights of the vehicle have learned; null: no memory.
   const common::RgbdCameraConfig* camera = nullptr;  ///< Data sheet of an RGB-D camera; null without one.
   const control::VehicleModel* model = nullptr;      ///< The identified model of the vehicle; null: not identified.
+  std::shared_ptr<const common::TopologicalMap> places = nullptr;  ///< What missions may name; null: nothing.
   /// Data sheet of a second laser, whose scan plane stands upright; null without one.
   const common::LaserConfig* vertical_laser = nullptr;
 };

@@ -34,6 +34,7 @@ behaviors::MissionLimits limitsOf(const AutonomyConfig& config, const AutonomySe
           .has_camera = setup.camera != nullptr && !setup.camera->isStereo(),
           .target_names = config.estimator.targets.names(),
           .has_map = setup.given != nullptr,
+          .places = setup.places,
           .map_problem = [&maps](const std::string& map, const std::string&) -> std::optional<common::Problem> {
             const auto why = maps.problemOf(map);
             return why ? std::optional(common::Problem{{}, "", *why, ""}) : std::nullopt;

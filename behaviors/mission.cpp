@@ -9,6 +9,7 @@
 #include "behaviors/mission_check.hpp"
 #include "behaviors/narrator.hpp"
 #include "behaviors/operator_command.hpp"
+#include "behaviors/place_entries.hpp"
 #include "behaviors/tree/observers.hpp"
 #include "behaviors/tree/parser.hpp"
 #include "behaviors/wait_for_operator.hpp"
@@ -65,6 +66,7 @@ tree::Tree sound(tree::ParseResult parsed) {
 /// Throws also for what cannot work in flight.
 tree::Tree flyable(tree::ParseResult parsed, const MissionLimits& limits) {
   tree::Tree tree = sound(std::move(parsed));
+  setPlaces(limits, tree);
   if (const auto problems = semanticProblems(tree, limits); !problems.empty())
     throw common::InputError(toCommon(problems));
   return tree;
@@ -90,7 +92,7 @@ Mission Mission::fromFile(const std::string& path, const NodeTypes& types) {
 }
 
 Mission Mission::fromFile(const std::string& path, const MissionLimits& limits, const NodeTypes& types) {
-  return Mission(std::make_unique<Impl>(types, flyable(tree::parseFile(path, *types), limits)));
+  return Mission(std::make_unique<Impl>(types, flyable(tree::parseFile(path, *types, parseOptionsOf(limits)), limits)));
 }
 
 Mission Mission::fromText(const std::string& text, const std::string& name, const NodeTypes& types) {
@@ -99,7 +101,7 @@ Mission Mission::fromText(const std::string& text, const std::string& name, cons
 
 Mission Mission::fromText(const std::string& text, const std::string& name, const MissionLimits& limits,
                           const NodeTypes& types) {
-  return Mission(std::make_unique<Impl>(types, flyable(tree::parseText(text, name, *types), limits)));
+  return Mission(std::make_unique<Impl>(types, flyable(tree::parseText(text, name, *types, parseOptionsOf(limits)), limits)));
 }
 
 TickResult Mission::tick(Context& context) {

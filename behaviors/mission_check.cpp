@@ -9,6 +9,7 @@
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/limits_check.hpp"
 #include "behaviors/mission_warnings.hpp"
+#include "behaviors/place_entries.hpp"
 #include "behaviors/tree/mocks.hpp"
 #include "behaviors/tree/parser.hpp"
 
@@ -68,14 +69,14 @@ bool hasBehaviour(const tree::Tree& tree) {
 
 MissionVerdict judgeMission(const std::string& path, const MissionLimits& limits, const tree::Registry& types,
                             const tree::TreeFiles& together) {
-  tree::ParseOptions options;
+  tree::ParseOptions options = parseOptionsOf(limits);
   options.trees_elsewhere = together;
   return verdictOf(tree::parseFile(path, types, options), limits);
 }
 
 MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimits& limits, const tree::Registry& types,
                                      const tree::TreeFiles& together) {
-  tree::ParseOptions options;
+  tree::ParseOptions options = parseOptionsOf(limits);
   options.trees_elsewhere = together;
   options.user_sets_entries = together.helpers.contains(path);
   const tree::MockedRegistry mocked = tree::withMocks(path, types, options);
@@ -90,7 +91,7 @@ MissionVerdict judgeMissionWithMocks(const std::string& path, const MissionLimit
 }
 
 MissionVerdict judgeMissionText(const std::string& text, const std::string& name, const MissionLimits& limits) {
-  return verdictOf(tree::parseText(text, name, missionRegistry()), limits);
+  return verdictOf(tree::parseText(text, name, missionRegistry(), parseOptionsOf(limits)), limits);
 }
 
 std::vector<common::Problem> toCommon(const std::vector<tree::Problem>& problems) {
@@ -136,7 +137,7 @@ std::vector<tree::Problem> semanticProblems(const tree::Tree& tree, const Missio
 
 std::vector<tree::Problem> operatorWarnings(const std::string& path, const MissionLimits& limits,
                                             const tree::Registry& types) {
-  const tree::ParseResult parsed = tree::parseFile(path, types);
+  const tree::ParseResult parsed = tree::parseFile(path, types, parseOptionsOf(limits));
   return parsed.tree ? operatorWarnings(*parsed.tree, limits) : std::vector<tree::Problem>();
 }
 

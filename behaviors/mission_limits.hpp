@@ -3,11 +3,16 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/error.hpp"
+
+namespace swiftlet::common {
+struct TopologicalMap;
+}
 
 namespace swiftlet::behaviors {
 
@@ -29,6 +34,8 @@ struct MissionLimits {
   std::optional<std::vector<std::string>> target_names = {};
   /// A map of the place is given; nodes that localize need one, or a LoadMap in the mission.
   bool has_map = true;
+  /// What the mission may name as entries (place_entries.hpp); null: nothing.
+  std::shared_ptr<const common::TopologicalMap> places = {};
   /// An operator says "go on" to a WaitForOperator, and gives an OperatorCommand its goals: without the page only the
   /// script of a trial does. Without an operator, a node that waits for it is a warning.
   bool operator_goes_on = true;

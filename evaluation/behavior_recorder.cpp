@@ -87,6 +87,7 @@ void BehaviorRecorder::intent(const common::Intent& intent, const common::Intent
 void BehaviorRecorder::world(const common::World& world) {
   followed_map_m_ = world.people->followed_map_m;
   record_.targets = world.targets;
+  record_.objects = world.objects;
   present_.map = world.map->grid;
   present_.keep_out = world.map->keep_out;
   if (zones_ == world.map->keep_out) return;

@@ -12,6 +12,7 @@
 #include "common/intent.hpp"
 #include "common/occupancy_grid.hpp"
 #include "common/polygon.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "simulation/truth.hpp"
 
@@ -59,6 +60,7 @@ struct BehaviorRecord {
   std::vector<Explored> explored;
   std::vector<Follow> follows;                          ///< In order of time; empty if no person was followed.
   std::shared_ptr<const common::TargetsLayer> targets;  ///< The last; null before the first snapshot.
+  std::shared_ptr<const common::ObjectsLayer> objects;  ///< The last; null if nothing is recognized.
 };
 
 /// Called by the FlightRecorder, whose functions have the same names. Calls come in the order of time.

@@ -165,6 +165,22 @@ std::optional<double> unseenShare(const BehaviorRecord::Explored& explored, cons
   return 1.0 - coverage(*explored.map, T_world_map_planar, space);
 }
 
+namespace {
+
+/// The coloured targets, and what was recognized as targets of that name.
+std::vector<common::Target> reportedBy(const BehaviorRecord& record) {
+  std::vector<common::Target> reported = record.targets->targets;
+  if (!record.objects) return reported;
+  for (const common::RecognizedObject& object : record.objects->objects)
+    if (object.confirmed)
+      reported.push_back({.name = object.what,
+                          .position_map_m = object.T_map_object.position_m,
+                          .state = common::TargetState::kFound});
+  return reported;
+}
+
+}  // namespace
+
 void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, FlightScore& score) {
   const BehaviorRecord& record = flight.behaviors;
   if (record.keep_out_distance_m) score["keep_out_gap_m"] = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
@@ -177,7 +193,7 @@ void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, Flight
     if (const auto share = unseenShare(explored, world, flight.T_world_map))
       keepGreatest(score["explored_unseen_share"], *share);
   measureFollow(record.follows, score);
-  if (record.targets) measureTargets(record.targets->targets, world.targets, flight.T_world_map, score);
+  if (record.targets) measureTargets(reportedBy(record), world.targets, flight.T_world_map, score);
 }
 
 }  // namespace swiftlet::evaluation

@@ -125,7 +125,7 @@ void TrialConfig::describe(common::config::Fields& fields) {
   fields.list("phases", phases, "Parts of the flight that have figures of their own, and criteria on them.");
   fields.list("event_orders", event_orders, "Events that must come in an order, with the vehicle where they must.");
   fields.list("asked_of", asked_of, "What is asked of one of the systems beyond what is asked of all.");
-  fields.list("targets", targets, "Models of the world that the flight is to find.");
+  fields.list("targets", targets, "Models of the world that the flight is to find, or to recognize.");
   fields.section("scenario", scenario, "World, start, weather, people, faults, and what the seed varies.");
 }
 

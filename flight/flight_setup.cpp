@@ -22,8 +22,9 @@ std::vector<FlightMission> soundMissions(const std::vector<std::string>& files, 
   for (const std::string& file : files) {
     try {
       const std::string found = findMission(file);
-      behaviors::Mission mission =
-          behaviors::Mission::fromFile(found, missionLimits(setup.system, has_map), setup.types);
+      behaviors::MissionLimits limits = missionLimits(setup.system, has_map);
+      limits.places = setup.places;
+      behaviors::Mission mission = behaviors::Mission::fromFile(found, limits, setup.types);
       std::vector<autonomy::OfferedMap> maps = offeredMaps(mission.mapFiles(), found, seed);
       missions.push_back({found, std::move(mission), std::move(maps)});
     } catch (const common::InputError& wrong) {

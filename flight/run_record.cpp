@@ -16,18 +16,21 @@ RunRecord::RunRecord(const FlightSetup& setup, interfaces::RunInfo info, const s
       control_log_(setup.control_log ? std::make_unique<ControlLogSink>(folder_.path(), reference) : nullptr),
       rgbd_(setup.record_rgbd ? std::make_unique<RgbdSink>(folder_.path(), reference) : nullptr),
       pictures_(folder_, reference, setup.system.vehicle.hull_diameter_m),
-      map3d_(folder_) {}
+      map3d_(folder_),
+      recognition_(folder_, setup.places) {}
 
 std::vector<autonomy::FlightSink*> RunRecord::sinks() {
   std::vector<autonomy::FlightSink*> all = {&folder_sink_};
   if (control_log_) all.push_back(control_log_.get());
   if (rgbd_) all.push_back(rgbd_.get());
+  all.push_back(&recognition_);
   all.push_back(&pictures_);
   all.push_back(&map3d_);
   return all;
 }
 
 void RunRecord::writeLast(const common::World& world) {
+  recognition_.writeNow(world);
   pictures_.drawNow(world);
   map3d_.writeNow(world);
   if (control_log_) control_log_->finish();

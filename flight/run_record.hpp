@@ -12,6 +12,7 @@
 #include "flight/flight_sinks.hpp"
 #include "flight/map3d_sink.hpp"
 #include "flight/picture_sink.hpp"
+#include "flight/recognition_sink.hpp"
 #include "flight/rgbd_sink.hpp"
 #include "interfaces/run_folder.hpp"
 
@@ -47,6 +48,7 @@ class RunRecord {
   std::unique_ptr<RgbdSink> rgbd_;               ///< Null unless requested.
   PictureSink pictures_;
   Map3dSink map3d_;
+  RecognitionSink recognition_;
   std::optional<std::string> memory_failure_;  ///< Why the vehicle's memory could not be written.
 };
 

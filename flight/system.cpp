@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -19,8 +20,10 @@
 #include "common/error.hpp"
 #include "common/former_settings.hpp"
 #include "common/misleading.hpp"
+#include "common/read_bytes.hpp"
 #include "control/controllers/lqr.hpp"
 #include "flight/files_of_kind.hpp"
+#include "perception/recognition/known_objects.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
 namespace swiftlet::flight {
@@ -170,6 +173,14 @@ std::map<std::string, std::string> findSheets(System& system, const ProfilePlace
 
 std::string keptName(const std::string& key) { return key + ".yaml"; }
 
+/// "pattern-landing.png": the picture of a pattern in a run.
+std::string keptPicture(const perception::KnownObjectConfig& object) {
+  std::string name = object.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return "pattern-" + name + (object.picture_bytes.starts_with("\x89PNG") ? ".png" : ".jpg");
+}
+
 /// A flight never starts half configured: a model of another vehicle or battery, or a controller without its model.
 void refuseUnfitModel(const System& system, const ProfilePlaces& places, const common::config::YamlReader* model) {
   std::vector<common::Problem> problems;
@@ -204,6 +215,33 @@ void refuseUnfitVerticalLaser(const System& system, const ProfilePlaces& places)
         common::Message("profile.upright-mirror", "{} has a mirror ({} beams), and an upright laser has none",
                         system.config.vertical_laser, system.vertical_laser->mirror_beams),
         "name a sheet such as `utm_30lx_upright`");
+}
+
+/// Reads the pictures of the patterns that are to be recognized, which are searched for beside the profile first.
+void readPatterns(System& system, const ProfilePlaces& places) {
+  std::vector<perception::KnownObjectConfig>& objects = system.config.autonomy.estimator.recognition;
+  if (objects.empty()) return;
+  const std::string key = "autonomy.estimator.recognition";
+  const common::SourceLocation place = places.of(key + "[0].name");
+  if (!system.rgbd_camera)
+    throw common::InputError(place, key, common::Message("profile.recognition-blind", "no camera sees what is recognized"),
+                             "name an rgbd_camera, such as xtion");
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    perception::KnownObjectConfig& object = objects[i];
+    if (!object.isPattern() && !system.hasDepthCamera())
+      throw common::InputError(
+          place, key, common::Message("profile.openings-flat", "`{}` are seen in depths, which a stereo pair has not",
+                                      object.name),
+          "name an RGB-D camera, such as xtion, or recognize patterns alone");
+    if (object.picture.empty()) continue;
+    const std::string file =
+        namedFile(object.picture, "patterns", key, places.of(fmt::format("{}[{}].picture", key, i)));
+    object.picture_bytes = common::readBytes(file);
+    std::error_code error;
+    object.picture = std::filesystem::absolute(file, error).lexically_normal().string();
+  }
+  if (const auto known = perception::KnownObjects::create(objects, {}); !known)
+    throw common::InputError(place, key, known.error().message, "give another picture");
 }
 
 /// Puts "# " before every line.
@@ -258,6 +296,8 @@ std::vector<interfaces::RunText> System::keptSheets() const {
   if (rgbd_camera) keep("rgbd_camera", *rgbd_camera);
   if (vertical_laser) keep("vertical_laser", *vertical_laser);
   if (model) keep("vehicle_model", *model);
+  for (const perception::KnownObjectConfig& object : config.autonomy.estimator.recognition)
+    if (!object.picture.empty()) sheets.push_back({keptPicture(object), object.picture_bytes});
   return sheets;
 }
 
@@ -265,6 +305,8 @@ System System::namingKeptSheets() const {
   System system = *this;
   for (const SheetKey& sheet : kSheetKeys)
     if (own_files.contains(sheet.key)) system.config.*sheet.name = keptName(sheet.key);
+  for (perception::KnownObjectConfig& object : system.config.autonomy.estimator.recognition)
+    if (!object.picture.empty()) object.picture = keptPicture(object);
   return system;
 }
 
@@ -329,6 +371,7 @@ System loadSystem(const std::string& name) {
   }
   refuseUnfitModel(system, places, model ? &*model : nullptr);
   refuseUnfitVerticalLaser(system, places);
+  readPatterns(system, places);
   system.config.autonomy.limitTo(system.laser);
   return system;
 }

@@ -35,6 +35,7 @@ autonomy::Autonomy makeAutonomy(const FlightSetup& setup, const interfaces::RunI
                              .memory = setup.memory.read.get(),
                              .camera = system.rgbd_camera ? &*system.rgbd_camera : nullptr,
                              .model = system.model ? &*system.model : nullptr,
+                             .places = setup.places,
                              .vertical_laser = system.vertical_laser ? &*system.vertical_laser : nullptr});
 }
 

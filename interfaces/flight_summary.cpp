@@ -46,6 +46,43 @@ ordered_json targetJson(const common::Target& target) {
           {"views", target.views}};
 }
 
+ordered_json objectJson(const common::RecognizedObject& object) {
+  const Eigen::Vector3d& at = object.T_map_object.position_m;
+  const Eigen::Quaterniond& q = object.T_map_object.rotation;
+  ordered_json covariance_m2 = ordered_json::array();
+  for (int i = 0; i < 9; ++i) covariance_m2.push_back(object.covariance_m2(i / 3, i % 3));
+  return {{"id", object.id},
+          {"what", object.what},
+          {"label", labelOf(object)},
+          {"confirmed", object.confirmed},
+          {"passage", common::toString(object.passage)},
+          {"position_map_m", {rounded(at.x()), rounded(at.y()), rounded(at.z())}},
+          {"rotation_map_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+          {"covariance_m2", covariance_m2},
+          {"sigma_m", rounded(object.sigma_m())},
+          {"yaw_sigma_rad", rounded(object.yaw_sigma_rad)},
+          {"width_m", rounded(object.size_m.x())},
+          {"height_m", rounded(object.size_m.y())},
+          {"looks", object.looks},
+          {"last_seen_s", rounded(object.last_seen.seconds())}};
+}
+
+/// In short, for the summary of the flight: those that were confirmed.
+ordered_json confirmedJson(const std::vector<common::RecognizedObject>& objects) {
+  ordered_json list = ordered_json::array();
+  for (const common::RecognizedObject& object : objects)
+    if (object.confirmed)
+      list.push_back({{"label", labelOf(object)},
+                      {"what", object.what},
+                      {"passage", common::toString(object.passage)},
+                      {"x_m", rounded(object.T_map_object.position_m.x())},
+                      {"y_m", rounded(object.T_map_object.position_m.y())},
+                      {"z_m", rounded(object.T_map_object.position_m.z())},
+                      {"sigma_m", rounded(object.sigma_m())},
+                      {"looks", object.looks}});
+  return list;
+}
+
 ordered_json machineJson(const FlightSummary& summary) {
   return {{"started", summary.info.started},
           {"wall_time_s", orNull(summary.wall_time_s)},
@@ -114,11 +151,20 @@ std::string toJson(const FlightSummary& summary) {
       {"machine", machineJson(summary)},
   };
   for (const common::Target& target : summary.targets) json["targets"].push_back(targetJson(target));
+  if (!summary.objects.empty()) json["objects"] = confirmedJson(summary.objects);
   if (summary.octree_age_s) json["octree_age_s"] = rounded(*summary.octree_age_s);
   if (!summary.info.nature.empty()) json["nature"] = summary.info.nature;
   if (!summary.info.vehicle.empty()) json["vehicle"] = summary.info.vehicle;
   if (summary.localization) json["localization"] = localizationJson(*summary.localization);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string objectsJson(const std::vector<common::RecognizedObject>& objects) {
+  ordered_json list = ordered_json::array();
+  for (const common::RecognizedObject& object : objects) list.push_back(objectJson(object));
+  return ordered_json{{"format", "swiftlet objects 1"}, {"objects", list}}.dump(2, ' ', false,
+                                                                              ordered_json::error_handler_t::replace) +
+         "\n";
 }
 
 }  // namespace swiftlet::interfaces

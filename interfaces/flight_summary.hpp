@@ -13,6 +13,7 @@
 #include "common/machine_use.hpp"
 #include "common/time.hpp"
 #include "common/world/frontier.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 
 namespace swiftlet::interfaces {
@@ -98,6 +99,7 @@ struct FlightSummary {
   std::optional<double> octree_age_s;  ///< How much older map.bt and map.ot are than the summary; nullopt without them.
   std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
   std::vector<common::Target> targets;      ///< What the camera has found of those that it looked for.
+  std::vector<common::RecognizedObject> objects;  ///< What the camera has recognized, candidates included.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;
   std::optional<double> wall_time_s;      ///< Computing time.
@@ -107,5 +109,7 @@ struct FlightSummary {
 
 /// mission.json, indented. Figures have at most four decimals; those that are not finite, or not known, are null.
 std::string toJson(const FlightSummary& summary);
+/// objects.json: what was recognized, with its pose in `map` and its covariance.
+std::string objectsJson(const std::vector<common::RecognizedObject>& objects);
 
 }  // namespace swiftlet::interfaces

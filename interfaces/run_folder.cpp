@@ -1,6 +1,7 @@
 #include "interfaces/run_folder.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -8,11 +9,13 @@
 #include "common/base64.hpp"
 #include "common/error.hpp"
 #include "common/jpeg_encoder.hpp"
+#include "common/topological_map.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "interfaces/files/json_lines.hpp"
@@ -115,6 +118,7 @@ struct RunFolder::Impl {
   void writeSummary(Durability durability = Durability::kProcess) {
     if (octree_stamp) summary.octree_age_s = (last_snapshot - *octree_stamp).seconds();
     write("mission.json", toJson(summary), durability);
+    if (recognizes) write("objects.json", objectsJson(summary.objects), durability);
     write("report.html", flightReport(summary, events, pictures, config_yaml), durability);
   }
 
@@ -142,6 +146,7 @@ struct RunFolder::Impl {
   Time last_snapshot;
   std::optional<Time> octree_stamp;
   int photos = 0;
+  bool recognizes = false;  ///< The World has a layer of objects.
   std::optional<std::string> failure;
 };
 
@@ -152,6 +157,8 @@ void RunFolder::Impl::track(const common::World& world) {
   summary.battery_remaining = world.energy->battery_remaining;
   if (world.map->frontiers) summary.frontiers = *world.map->frontiers;
   summary.targets = world.targets->targets;
+  recognizes = world.objects != nullptr;
+  if (recognizes) summary.objects = world.objects->objects;
   grid = world.map->grid;
   const common::MissionStatus& mission = world.mission->status;
   if (mission.state == MissionState::kReady || mission_over) return;
@@ -275,8 +282,25 @@ void RunFolder::savePhoto(const std::string& name, const common::RgbdFrame& fram
                            angles.yaw_rad));
 }
 
+void RunFolder::saveObjectPicture(const common::RecognizedObject& object, const std::vector<std::uint8_t>& jpeg) {
+  const Eigen::Vector3d& at = object.T_map_object.position_m;
+  impl_->pictures.objects.push_back(
+      {fmt::format("{} at ({:.2f}, {:.2f}, {:.2f})", labelOf(object), at.x(), at.y(), at.z()), common::base64(jpeg)});
+  std::string what = object.what;
+  std::replace_if(
+      what.begin(), what.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  if (!impl_->failure)
+    impl_->write(fmt::format("object-{:02}-{}.jpg", object.id, what).c_str(),
+                 {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()});
+}
+
+void RunFolder::savePlaces(const common::TopologicalMap& map) {
+  if (!impl_->failure) impl_->write("topological_map.yaml", toYaml(map), Durability::kPower);
+}
+
 void RunFolder::show(ReportPictures pictures) {
   pictures.photos = std::move(impl_->pictures.photos);
+  pictures.objects = std::move(impl_->pictures.objects);
   impl_->pictures = std::move(pictures);
   if (!impl_->failure && !impl_->pictures.map_png.empty()) impl_->write("map.png", impl_->pictures.map_png);
 }

@@ -11,6 +11,8 @@
 //   map.pgm, map.yaml, map.png    replaced whole every few seconds and at the end
 //   map-NAME.pgm, map-NAME.yaml    each map that the mission saved
 //   photo-NN-NAME.jpg, photo-NN-NAME.json    each photograph of the mission, and where the camera was
+//   objects.json, object-NN-WHAT.jpg     where something is recognized: poses with covariances, and a picture of each
+//   topological_map.yaml    places, passages and danger zones (common/topological_map.hpp); written at the end
 //   report.html      the same in one page
 //   config.yaml      the settings in force
 //   vehicle.yaml, laser.yaml, rgbd_camera.yaml, vertical_laser.yaml, vehicle_model.yaml
@@ -22,6 +24,7 @@
 //   nature.yaml      the true plant values of a simulated vehicle; no file if none was drawn
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,6 +44,7 @@
 
 namespace swiftlet::common {
 struct World;
+struct TopologicalMap;
 }
 
 namespace swiftlet::interfaces {
@@ -90,6 +94,10 @@ class RunFolder {
   void saveMap(const std::string& name, const common::OccupancyGrid& grid);
   /// Writes the picture, with a number that counts from 1, and the pose of the camera.
   void savePhoto(const std::string& name, const common::RgbdFrame& frame, const common::Pose3& T_map_camera);
+  /// Writes a JPEG of a recognized object, drawn in.
+  void saveObjectPicture(const common::RecognizedObject& object, const std::vector<std::uint8_t>& jpeg);
+  /// Writes topological_map.yaml.
+  void savePlaces(const common::TopologicalMap& map);
   /// The pictures of the next report and map.png; may be called repeatedly.
   void show(ReportPictures pictures);
   /// Call after files of the 3D map were written into path(), or could not be.

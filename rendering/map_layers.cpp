@@ -66,6 +66,29 @@ void drawTarget(Layer& layer, const MapMark& mark) {
                     layer.theme().free.withAlpha(200));
 }
 
+/// The width of a window or a door between its two sides, with its name on the side of the normal; what lets nothing
+/// through is crossed out.
+void drawOpening(Layer& layer, const MapMark& mark) {
+  const double s = layer.scale;
+  const auto place = [&](double normal_m, double along_m) {
+    return layer.viewport.toPixel(mark.at_map * Vector2d(normal_m, along_m));
+  };
+  const double half_m = 0.5 * mark.diameter_m, side_m = 6.0 * s / layer.viewport.px_per_m;
+  const Color color = layer.theme().goal, halo = layer.theme().free.withAlpha(220);
+  for (const double width : {6.0 * s, 2.6 * s}) {
+    const Color stroke = width > 3.0 * s ? halo : color;
+    layer.canvas.line(place(0.0, -half_m), place(0.0, half_m), width, stroke);
+    for (const double end_m : {-half_m, half_m})
+      layer.canvas.line(place(-side_m, end_m), place(side_m, end_m), width, stroke);
+    if (mark.style == MarkStyle::kClosed) {
+      layer.canvas.line(place(-side_m, -half_m), place(side_m, half_m), width, stroke);
+      layer.canvas.line(place(side_m, -half_m), place(-side_m, half_m), width, stroke);
+    }
+  }
+  layer.canvas.text(mark.name, place(2.2 * side_m, 0.0) + Vector2d(0.0, 3.0 * s), 9.0 * s, layer.theme().text,
+                    Align::kCenter, halo);
+}
+
 void drawVehicle(Layer& layer, const MapMark& mark) {
   const Theme& theme = layer.theme();
   const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
@@ -173,6 +196,9 @@ void drawMark(Layer& layer, const MapMark& mark) {
     case MarkStyle::kTarget:
     case MarkStyle::kCandidate:
       return drawTarget(layer, mark);
+    case MarkStyle::kOpen:
+    case MarkStyle::kClosed:
+      return drawOpening(layer, mark);
     case MarkStyle::kVehicle:
       return drawVehicle(layer, mark);
   }

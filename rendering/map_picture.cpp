@@ -3,10 +3,28 @@
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::rendering {
+namespace {
+
+/// Of what was confirmed: a mirror and a closed opening alike let nothing through, a pattern is a target.
+void addObjects(const common::ObjectsLayer& layer, std::vector<MapMark>& marks) {
+  for (const common::RecognizedObject& object : layer.objects) {
+    if (!object.confirmed) continue;
+    const common::Pose3& T = object.T_map_object;
+    const bool open = object.passage == common::Passage::kOpen;
+    const bool opening = open || object.passage == common::Passage::kClosed || object.what == "mirror";
+    marks.push_back({labelOf(object),
+                     {T.position_m.x(), T.position_m.y(), common::yawOf(T.rotation)},
+                     !opening ? MarkStyle::kTarget : open ? MarkStyle::kOpen : MarkStyle::kClosed,
+                     object.size_m.x()});
+  }
+}
+
+}  // namespace
 
 MapPicture pictureOf(const common::World& world, double hull_diameter_m) {
   const common::VehicleLayer& vehicle = *world.vehicle;
@@ -46,6 +64,7 @@ MapPicture pictureOf(const common::World& world, double hull_diameter_m) {
                              {target.position_map_m.x(), target.position_map_m.y(), 0.0},
                              found ? MarkStyle::kTarget : MarkStyle::kCandidate});
   }
+  if (world.objects) addObjects(*world.objects, picture.marks);
   picture.marks.push_back({"vehicle", T_map_body, MarkStyle::kVehicle, hull_diameter_m});
   return picture;
 }

@@ -34,13 +34,15 @@ struct MapLine {
   LineStyle style = LineStyle::kTrail;
 };
 
-enum class MarkStyle { kHome, kGoal, kTarget, kCandidate, kVehicle };
+enum class MarkStyle { kHome, kGoal, kTarget, kCandidate, kOpen, kClosed, kVehicle };
 
 struct MapMark {
   std::string name;  ///< Written beside the mark in an SVG: "home", "goal", "red 1".
   common::Pose2 at_map;
   MarkStyle style = MarkStyle::kHome;
-  double diameter_m = 0.0;  ///< Diameter of the vehicle's hull; other marks have a size in pixels.
+  /// Diameter of the vehicle's hull, or width of an opening, which is seen along its normal; other marks have a size in
+  /// pixels.
+  double diameter_m = 0.0;
 };
 
 struct MapPicture {
@@ -55,7 +57,8 @@ struct MapPicture {
   std::vector<Eigen::Vector2d> in_view_map_m{Eigen::Vector2d::Zero()};  ///< Points that are always shown.
 };
 
-/// The picture of a World: its map, the last scan, trail and plan, home, goal, targets and the vehicle.
+/// The picture of a World: its map, the last scan, trail and plan, home, goal, targets, what is recognized,
+/// and the vehicle.
 MapPicture pictureOf(const common::World& world, double hull_diameter_m);
 
 }  // namespace swiftlet::rendering

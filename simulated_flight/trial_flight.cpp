@@ -79,7 +79,14 @@ void checkTargets(const TrialConfig& trial, std::vector<common::Problem>& proble
   if (trial.targets.empty()) return;
   const simulation::WorldModel world = loadWorldOf(trial.scenario);
   const std::vector<std::string> models = world.modelNames();
-  const std::vector<std::string> names = flight::loadSystem(trial.system).config.autonomy.estimator.targets.names();
+  const flight::System system = flight::loadSystem(trial.system);
+  std::vector<std::string> names = system.config.autonomy.estimator.targets.names();
+  for (const perception::KnownObjectConfig& object : system.config.autonomy.estimator.recognition) {
+    if (object.isPattern())
+      names.push_back(object.name);
+    else
+      names.insert(names.end(), {"window", "door", "opening", "mirror"});
+  }
   const auto check = [&](const std::vector<std::string>& known, const std::string& word, const std::string& whose) {
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
     problems.push_back({{world.file},

@@ -180,28 +180,54 @@ std::string frontiersSection(const FlightSummary& summary) {
           rows + "</tbody></table></div>");
 }
 
+common::Table tableOfPlaces(const char* what) {
+  return {"", {what, "at x, y, z in the map (m)", "known to (m)", "seen from", "state"}, {}};
+}
+
+/// A row of such a table: `thing` is a Target or a RecognizedObject.
+template <typename Thing>
+void addPlace(const Thing& thing, const Eigen::Vector3d& at, int places, std::string state, common::Table& table) {
+  table.rows.push_back({{labelOf(thing)},
+                        {fmt::format("({:.2f}, {:.2f}, {:.2f})", at.x(), at.y(), at.z())},
+                        {fmt::format("{:.2f}", thing.sigma_m())},
+                        {fmt::format("{} places", places)},
+                        {std::move(state)}});
+}
+
 std::string targetsSection(const std::vector<common::Target>& targets) {
   if (targets.empty()) return "";
-  common::Table table{"", {"target", "at x, y, z in the map (m)", "known to (m)", "seen from", "state"}, {}};
-  for (const common::Target& target : targets) {
-    const Eigen::Vector3d& at = target.position_map_m;
-    table.rows.push_back({{labelOf(target)},
-                          {fmt::format("({:.2f}, {:.2f}, {:.2f})", at.x(), at.y(), at.z())},
-                          {fmt::format("{:.2f}", target.sigma_m())},
-                          {fmt::format("{} places", target.views)},
-                          {common::toString(target.state)}});
-  }
+  common::Table table = tableOfPlaces("target");
+  for (const common::Target& target : targets)
+    addPlace(target, target.position_map_m, target.views, common::toString(target.state), table);
   return html::section("Targets", html::table(table));
 }
 
-std::string photosSection(const std::vector<ReportPhoto>& photos) {
+/// Candidates are counted: many of them are seen once and never again.
+std::string objectsSection(const std::vector<common::RecognizedObject>& objects) {
+  if (objects.empty()) return "";
+  common::Table table = tableOfPlaces("object");
+  for (const common::RecognizedObject& object : objects) {
+    if (!object.confirmed) continue;
+    const std::string size = fmt::format("{:.2f} x {:.2f} m", object.size_m.x(), object.size_m.y());
+    addPlace(object, object.T_map_object.position_m, object.looks,
+             object.passage == common::Passage::kNone ? size : size + ", " + common::toString(object.passage), table);
+  }
+  const std::size_t candidates = objects.size() - table.rows.size();
+  std::string body = table.rows.empty() ? "" : html::table(table);
+  if (candidates > 0)
+    body += fmt::format("\n<p class=\"empty\">{} seen from too few places {} in objects.json.</p>", candidates,
+                        candidates == 1 ? "is" : "are");
+  return html::section("Recognized", body);
+}
+
+std::string photosSection(const char* title, const std::vector<ReportPhoto>& photos) {
   if (photos.empty()) return "";
   std::string body = "<div class=\"pictures\">\n";
   for (const ReportPhoto& photo : photos)
     body += fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         escaped(photo.caption), photo.jpeg);
-  return html::section("Photographs", body + "</div>");
+  return html::section(title, body + "</div>");
 }
 
 std::string eventsSection(const std::vector<common::Event>& events) {
@@ -241,7 +267,9 @@ std::string flightReport(const FlightSummary& summary, const std::vector<common:
                          const ReportPictures& pictures, const std::string& config_yaml) {
   const std::string body = summarySection(summary) + mapSection(pictures.map_svg) +
                            html::map3dSection(pictures.map3d_jpeg) + targetsSection(summary.targets) +
-                           photosSection(pictures.photos) + phasesSection(summary.phases) +
+                           objectsSection(summary.objects) +
+                           photosSection("What was recognized", pictures.objects) +
+                           photosSection("Photographs", pictures.photos) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);
   return html::page(titleOf(summary) + ": " + toString(summary.outcome), header(summary), body, summary.info.version);

@@ -14,7 +14,7 @@
 
 namespace swiftlet::interfaces {
 
-/// A photograph of the mission.
+/// A photograph of the mission, or a picture of a recognized object.
 struct ReportPhoto {
   std::string caption;
   std::string jpeg;  ///< In base64.
@@ -27,6 +27,7 @@ struct ReportPictures {
   std::vector<std::string> plots_svg;
   std::string map3d_jpeg = {};  ///< The 3D map: a JPEG in base64.
   std::vector<ReportPhoto> photos = {};
+  std::vector<ReportPhoto> objects = {};  ///< Of what was recognized, drawn in.
 };
 
 /// `config_yaml` has the settings of the flight.

@@ -1,4 +1,4 @@
-// Symbols of a fixed size on the map: home, goal, targets, vehicle and the scale. `view` is the MapView they are painted on.
+// Symbols on the map: home, goal, targets, recognized objects, vehicle and the scale. `view` is the MapView they are painted on.
 
 export function paintHome(view, { x_m, y_m }) {
   const { context, colors } = view;
@@ -43,6 +43,30 @@ export function paintTarget(view, { x_m, y_m, label, state }) {
   diamond(9, colors.goal);
   if (state === 'candidate') diamond(5, colors.free);
   view.paintText(label, x + 14, y + 4, 'left');
+}
+
+/** The width of a window or a door between its sides, crossed out where nothing comes through; a pattern is a target. */
+export function paintObject(view, { x_m, y_m, yaw_rad, width_m, label, what, passage, confirmed }) {
+  if (!confirmed) return;
+  if (passage === 'none' && what !== 'mirror') return paintTarget(view, { x_m, y_m, label, state: 'found' });
+  const { context, colors } = view;
+  const half_m = width_m / 2, side_m = 7 / view.scale, cos = Math.cos(yaw_rad), sin = Math.sin(yaw_rad);
+  const place = (normal_m, along_m) =>
+    view.toScreen(x_m + cos * normal_m - sin * along_m, y_m + sin * normal_m + cos * along_m);
+  const lines = [[0, -half_m, 0, half_m], [-side_m, -half_m, side_m, -half_m], [-side_m, half_m, side_m, half_m]];
+  if (passage !== 'open') lines.push([-side_m, -half_m, side_m, half_m], [side_m, -half_m, -side_m, half_m]);
+  context.lineCap = 'round';
+  for (const [strokeStyle, lineWidth] of [[colors.free, 7], [colors.goal, 3]]) {
+    context.beginPath();
+    for (const [a, b, c, d] of lines) {
+      context.moveTo(...place(a, b));
+      context.lineTo(...place(c, d));
+    }
+    Object.assign(context, { strokeStyle, lineWidth });
+    context.stroke();
+  }
+  const [x, y] = place(2.2 * side_m, 0);
+  view.paintText(label, x, y + 4, 'center');
 }
 
 export function paintVehicle(view, { x_m, y_m, yaw_rad }) {

@@ -2,7 +2,7 @@
 // flight reports, and the one that is shown (see MapStore.shown), in which the canvas lies and places are sent.
 import { readColors } from './map_colors.js';
 import { listenToGestures } from './map_gestures.js';
-import { paintCertainty, paintGoal, paintHome, paintScale, paintTarget, paintVehicle } from './map_symbols.js';
+import { paintCertainty, paintGoal, paintHome, paintObject, paintScale, paintTarget, paintVehicle } from './map_symbols.js';
 import { paintTiles } from './map_tiles.js';
 import { composed, inverse, kIdentity, moved } from './pose2.js';
 
@@ -155,6 +155,7 @@ export class MapView {
       if (pose && state.plan.length > 0) this.paintPlan([[pose.x_m, pose.y_m], ...state.plan]);
       paintHome(this, state.home);
       for (const target of state.targets ?? []) paintTarget(this, target);
+      for (const object of state.objects ?? []) paintObject(this, object);
       if (state.goal) paintGoal(this, this.toScreen(state.goal.x_m, state.goal.y_m), colors.goal, false);
       if (pose && state.localization) paintCertainty(this, pose, state.localization);
     }

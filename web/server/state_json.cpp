@@ -13,6 +13,7 @@
 #include "common/world/map3d_layer.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/mission_layer.hpp"
+#include "common/world/objects_layer.hpp"
 #include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 #include "web/server/tree_json.hpp"
@@ -150,6 +151,30 @@ Json targetsOf(const common::TargetsLayer& layer) {
   return list;
 }
 
+Json objectsOf(const std::shared_ptr<const common::ObjectsLayer>& layer) {
+  if (!layer) return nullptr;
+  Json list = Json::array();
+  for (const common::RecognizedObject& object : layer->objects) {
+    const common::Pose3& T = object.T_map_object;
+    list.push_back({{"id", object.id},
+                    {"what", object.what},
+                    {"label", labelOf(object)},
+                    {"confirmed", object.confirmed},
+                    {"passage", common::toString(object.passage)},
+                    {"x_m", number(T.position_m.x())},
+                    {"y_m", number(T.position_m.y())},
+                    {"z_m", number(T.position_m.z())},
+                    {"yaw_rad", number(common::yawOf(T.rotation), 4)},
+                    {"deviation_m", number(object.sigma_m())},
+                    {"deviation_yaw_rad", number(object.yaw_sigma_rad, 4)},
+                    {"width_m", number(object.size_m.x(), 2)},
+                    {"height_m", number(object.size_m.y(), 2)},
+                    {"looks", object.looks},
+                    {"last_seen_s", number(object.last_seen.seconds())}});
+  }
+  return list;
+}
+
 Json stateOf(const common::World& world, const Observation& seen) {
   const common::VehicleLayer& vehicle = *world.vehicle;
   const common::VehicleState& state = vehicle.state;
@@ -194,6 +219,7 @@ Json stateOf(const common::World& world, const Observation& seen) {
                    : Json(nullptr)},
       {"keep_out", zonesOf(*world.map->keep_out)},
       {"targets", targetsOf(*world.targets)},
+      {"objects", objectsOf(world.objects)},
       {"plan", points(vehicle.plan_map_m)}};
   if (!vehicle.name.empty()) json["vehicle"] = vehicle.name;
   return json;
