@@ -1,5 +1,6 @@
 #include "autonomy/executor.hpp"
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -20,6 +21,17 @@ double clearanceOf(const common::IntentKind& kind, double otherwise_m) {
           return otherwise_m;
       },
       kind);
+}
+
+/// The nearest person who walks; nullopt if nobody does.
+std::optional<Eigen::Vector2d> nearestWalking_map_m(const ManeuverInput& input) {
+  std::optional<Eigen::Vector2d> nearest_map_m;
+  const Eigen::Vector2d here_map_m = input.position_map_m();
+  for (const common::DynamicObstacle& person : input.people)
+    if (person.moving &&
+        (!nearest_map_m || (person.center_map_m - here_map_m).norm() < (*nearest_map_m - here_map_m).norm()))
+      nearest_map_m = person.center_map_m;
+  return nearest_map_m;
 }
 
 }  // namespace
@@ -47,6 +59,8 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   state_ = input.state;
   names_ = input.names;
   if (input.anybody_walks) memory_.people_seen = now_;
+  if (!memory_.person)
+    if (const auto walking_map_m = nearestWalking_map_m(input)) memory_.person_map_m = walking_map_m;
   if (intent.id != intent_.id) begin(intent);
   const PathFlight* flight = aim().flight;
   rememberLowered(memory_, flight ? flight->plan() : nullptr, controller_, state_);

@@ -1,12 +1,24 @@
 // FollowMe: stays `distance_m` behind a walking person, with the camera on that person; RUNNING until a node above
-// it ends it, and FAILURE when no person is seen for `lost_s`. ReturnToMe: flies to where the person was last followed;
-// SUCCESS near that person.
+// it ends it, and FAILURE when no person is seen for `lost_s`. ReturnToMe (Saeedi et al., section III-A): flies to a
+// person who calls it, at the given place, or where the person was last followed or seen to walk; SUCCESS near that
+// place.
 #include "behaviors/leaves.hpp"
 
+#include <cmath>
+#include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "behaviors/flight_leaf.hpp"
+#include "behaviors/named_places.hpp"
 #include "behaviors/ports.hpp"
+#include "common/geometry.hpp"
+#include "common/line_of_sight.hpp"
+#include "common/world/map_layer.hpp"
+#include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::behaviors {
 namespace {
@@ -18,8 +30,10 @@ class PersonLeaf : public IntentLeaf {
  public:
   PersonLeaf(const tree::NodeSetup& setup, bool until_near);
 
- private:
+ protected:
   IntentOrProblem makeIntent(const FlightTick& tick) override;
+
+ private:
   bool until_near_;
   tree::Input<double> distance_m_;
   tree::Input<tree::Duration> lost_s_;
@@ -35,8 +49,12 @@ class FollowMe final : public PersonLeaf {
 
 class ReturnToMe final : public PersonLeaf {
  public:
-  explicit ReturnToMe(const tree::NodeSetup& setup) : PersonLeaf(setup, true) {}
+  explicit ReturnToMe(const tree::NodeSetup& setup) : PersonLeaf(setup, true), place_(setup, "place") {}
   static tree::NodeManifest manifest();
+
+ private:
+  IntentOrProblem makeIntent(const FlightTick& tick) override;
+  tree::Input<tree::Point> place_;
 };
 
 std::vector<tree::PortManifest> personPorts() {
@@ -56,6 +74,33 @@ std::vector<tree::PortManifest> personPorts() {
           modePort()};
 }
 
+/// The free place at the distance of `asked` from a person that is nearest to the vehicle, and in sight of that person.
+std::optional<common::GoToIntent> placeBeside(const FlightTick& tick, const Eigen::Vector2d& person_map_m,
+                                              const common::FollowIntent& asked) {
+  constexpr int kBearings = 36;                   // Every 10 degrees.
+  constexpr double kPersonStands_m = 0.5;         // What the map has there may be the person.
+  constexpr double kBesideTolerance_m = 0.2;      // Within the sway of a person who stands.
+  const common::World& world = *tick.flight.world;
+  const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
+  const auto& map = tick.flight.goal_map;
+  std::optional<common::GoToIntent> nearest;
+  for (int i = 0; i < kBearings; ++i) {
+    const double bearing_rad = 2.0 * std::numbers::pi * i / kBearings;
+    const Eigen::Vector2d place_map_m =
+        person_map_m + asked.distance_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
+    if (map && map->stateAt(place_map_m, asked.clearance_m) != common::PlaceState::kFree) continue;
+    if (!common::isInSight(*world.map->grid, place_map_m, person_map_m, kPersonStands_m)) continue;
+    if (nearest && (place_map_m - here_map_m).norm() >= (nearest->goal_map_m - here_map_m).norm()) continue;
+    nearest.emplace();
+    nearest->goal_map_m = place_map_m;
+    nearest->yaw_map_rad = common::wrapAngle(bearing_rad + std::numbers::pi);
+    nearest->tolerance_m = kBesideTolerance_m;
+    nearest->clearance_m = asked.clearance_m;
+    nearest->mode = asked.mode;
+  }
+  return nearest;
+}
+
 tree::NodeManifest FollowMe::manifest() {
   return {
       .id = "FollowMe",
@@ -73,32 +118,37 @@ tree::NodeManifest FollowMe::manifest() {
 }
 
 tree::NodeManifest ReturnToMe::manifest() {
+  std::vector<tree::PortManifest> ports = personPorts();
+  tree::PortManifest place = placePort("place");
+  place.required = false;
+  place.description =
+      "Where the person stands, in the map frame or in the given map. Not given: where the person was last followed, or "
+      "else where the nearest walking person was last seen.";
+  ports.push_back(std::move(place));
   return {.id = "ReturnToMe",
           .kind = tree::NodeKind::kAction,
-          .ports = personPorts(),
-          .description = "Flies back to the person who was followed.",
-          .ends = "SUCCESS near that person; FAILURE if nobody was followed, or nobody is seen for `lost_s`"};
+          .ports = std::move(ports),
+          .description = "Flies back to the person who calls it.",
+          .details =
+              "It looks at the person and stays `distance_m` away. Without `place`, a person who is seen on the way is "
+              "flown to wherever that person goes.",
+          .ends =
+              "SUCCESS near that person; FAILURE if no place is given and nobody was followed or seen walking, or nobody "
+              "is seen for `lost_s` from within 6 m, or no place near the person is free"};
 }
 
-PersonLeaf::PersonLeaf(const tree::NodeSetup& setup, bool until_near)
-    : IntentLeaf(setup),
-      until_near_(until_near),
-      distance_m_(setup, "distance_m"),
-      lost_s_(setup, "lost_s"),
-      clearance_m_(setup, "clearance_m"),
-      mode_(setup, "mode") {}
-
-IntentLeaf::IntentOrProblem PersonLeaf::makeIntent(const FlightTick& tick) {
-  const auto distance_m = distance_m_.get();
-  const auto lost = lost_s_.get();
-  const auto clearance_m = clearance_m_.get();
-  const auto mode = modeOr(mode_, tick.mode);
-  if (!distance_m) return tl::unexpected(distance_m_.problem());
-  if (!lost) return tl::unexpected(lost_s_.problem());
-  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
-  if (!mode) return tl::unexpected(mode_.problem());
-  return common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
-                              *mode};
+/// A place is returned to as to a goal: who calls from there may be hidden, or stand in the map since before it was made.
+IntentLeaf::IntentOrProblem ReturnToMe::makeIntent(const FlightTick& tick) {
+  IntentOrProblem to_person = PersonLeaf::makeIntent(tick);
+  if (!to_person || !place_.given()) return to_person;
+  const auto place = place_.get();
+  if (!place) return tl::unexpected(place_.problem());
+  const auto places = NamedPlaces::in(*tick.flight.world);
+  if (!places) return tl::unexpected(places.error());
+  const Eigen::Vector2d person_map_m = places->inMap_m(*place);
+  const auto beside = placeBeside(tick, person_map_m, std::get<common::FollowIntent>(*to_person));
+  if (!beside) return tl::unexpected("no place near " + tick.flight.world->map->names().of(person_map_m) + " is free");
+  return *beside;
 }
 
 }  // namespace

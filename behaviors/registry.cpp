@@ -16,6 +16,7 @@ tree::Registry missionRegistry() {
   addExploreUntilFound(registry);
   addFindPositionIndoor(registry);
   addFindWindow(registry);
+  addFindEntrance(registry);
   addFlightConditions(registry);
   addFlyThroughWindow(registry);
   addFollowMe(registry);
@@ -25,6 +26,7 @@ tree::Registry missionRegistry() {
   addKeepOut(registry);
   addLand(registry);
   addLeaveByDoor(registry);
+  addLandOnPattern(registry);
   addLoadMap(registry);
   addLocalize(registry);
   addLocateTarget(registry);

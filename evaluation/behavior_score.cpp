@@ -181,6 +181,15 @@ std::vector<common::Target> reportedBy(const BehaviorRecord& record) {
 
 }  // namespace
 
+/// The horizontal distance of where the vehicle stands at the end from the first of the trial's targets, if that is the
+/// one it has landed on.
+void measureLanding(const FlightRecord& flight, const std::vector<TrueTarget>& targets, FlightScore& score) {
+  if (targets.empty() || !flight.motors_off) return;
+  const Eigen::Vector3d off_m = flight.last_truth.T_world_body.position_m - targets.front().middle_world_m;
+  if (const double distance_m = off_m.head<2>().norm(); distance_m <= kTargetMatch_m)
+    score["landing_error_m"] = distance_m;
+}
+
 void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, FlightScore& score) {
   const BehaviorRecord& record = flight.behaviors;
   if (record.keep_out_distance_m) score["keep_out_gap_m"] = *record.keep_out_distance_m - world.vehicle.hullRadius_m();
@@ -194,6 +203,7 @@ void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, Flight
       keepGreatest(score["explored_unseen_share"], *share);
   measureFollow(record.follows, score);
   if (record.targets) measureTargets(reportedBy(record), world.targets, flight.T_world_map, score);
+  measureLanding(flight, world.targets, score);
 }
 
 }  // namespace swiftlet::evaluation

@@ -315,6 +315,12 @@ Figures behaviorRows() {
                  "Greatest number of found targets that are none of the trial's, or are one of them again.", kAlways,
                  common::config::atLeast(0.0)),
           greatest("false_targets_max")),
+      row("landing_error_m",
+          atMost("landing_error_max_m", "distance from the target that it landed on, m",
+                 "Greatest horizontal distance of where the vehicle stands at the end from the middle of the first "
+                 "target, on which it is to land; a flight that stands more than 0.5 m off has not landed on it.",
+                 kAlways),
+          greatest("landing_error_max_m"), median("landing_error_median_m")),
   };
 }
 

@@ -1,10 +1,29 @@
 #include "autonomy/estimation/space_sensors.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace swiftlet::autonomy {
 
 using common::Time;
+
+namespace {
+
+/// Scans of this age have arrived from most lasers and are in the map.
+constexpr double kLookBack_s = 0.05;
+
+bool looksForOpenings(const std::vector<perception::KnownObjectConfig>& objects) {
+  return std::any_of(objects.begin(), objects.end(), [](const auto& object) { return !object.isPattern(); });
+}
+
+/// A frame that shows nothing: the time at which a vehicle without a camera looks at its scan.
+std::shared_ptr<const common::RgbdFrame> emptyFrame(Time now) {
+  auto frame = std::make_shared<common::RgbdFrame>();
+  frame->stamps = {now - common::Duration::fromSeconds(kLookBack_s), now};
+  return frame;
+}
+
+}  // namespace
 
 SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig* camera,
                            const common::LaserConfig* vertical_laser, common::JobRunner& jobs, common::EventLog& log)
@@ -16,8 +35,9 @@ SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig*
       targets_(rgbd_ && !config.targets.classes.empty()
                    ? std::make_unique<TargetPipeline>(config.targets, jobs, camera->range_max_m, log)
                    : nullptr),
-      recognition_(camera && !config.recognition.empty()
-                       ? std::make_unique<RecognitionPipeline>(config.recognition, *camera, config.laser, jobs, log)
+      recognition_((camera && !config.recognition.empty()) || looksForOpenings(config.recognition)
+                       ? std::make_unique<RecognitionPipeline>(
+                             config.recognition, camera ? *camera : common::RgbdCameraConfig(), config.laser, jobs, log)
                        : nullptr) {}
 
 bool SpaceSensors::add(std::shared_ptr<const common::RgbdFrame> frame) {
@@ -79,13 +99,15 @@ void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
 }
 
 common::CameraEstimate SpaceSensors::anyCamera() const {
-  return rgbd_ ? rgbd_->camera() : common::CameraEstimate{stereo_->T_body_camera()};
+  if (rgbd_) return rgbd_->camera();
+  return stereo_ ? common::CameraEstimate{stereo_->T_body_camera()} : common::CameraEstimate{};
 }
 
 void SpaceSensors::recognize(const MapSituation& situation, Time now) {
   recognition_->report(*situation.keys, situation.names, now);
   if (stereo_)
     if (auto frame = stereo_->takeFrame()) recognition_->add(std::move(frame));
+  if (!hasCamera() && !recognition_->next(0.0)) recognition_->add(emptyFrame(now));
   const common::CameraEstimate camera = anyCamera();
   const auto time = recognition_->next(camera.clock_offset_s);
   if (time && situation.poses.isKnown(*time, now, recognition_->waitUntil()))

@@ -65,6 +65,7 @@ class Follow final : public PathManeuver {
   void watch(const ManeuverInput& input) override;
   Progress fly(const ManeuverInput& input) override;
   void begin(common::Time now);
+  double missed_s(const ManeuverInput& input, double distance_m);
   Progress search(const ManeuverInput& input);
   Progress progress(const ManeuverInput& input);
   /// Flies behind the person, or gives way.
@@ -82,6 +83,7 @@ class Follow final : public PathManeuver {
   std::optional<Eigen::Vector2d> target_map_m_;
   std::optional<common::Time> since_;
   std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for a person.
+  std::optional<common::Time> last_far_;  ///< When it was last too far from the person to see anybody there.
   common::Time asked_;
   bool on_trail_ = false;  ///< The plan leads along the trail.
   common::Hysteresis lost_, near_{kNear_s};
@@ -90,7 +92,8 @@ class Follow final : public PathManeuver {
 Follow::Follow(const common::FollowIntent& intent, const ManeuverSetup& setup)
     : PathManeuver(setup, "follow a person", intent.mode), intent_(intent) {}
 
-/// A person who was followed a moment ago is kept. To return, the last place of that person counts.
+/// A person who was followed a moment ago is kept. To return, the last place of that person counts, or of the nearest
+/// who was seen walking if nobody was followed.
 void Follow::begin(Time now) {
   since_ = now;
   FlightMemory& memory = setup_.memory;
@@ -127,7 +130,7 @@ Progress Follow::fly(const ManeuverInput& input) {
 }
 
 Progress Follow::search(const ManeuverInput& input) {
-  if (intent_.until_near) return Progress::failed("no person was followed before");
+  if (intent_.until_near) return Progress::failed("no person was followed or seen walking before");
   if ((input.now - *since_).seconds() > intent_.lost_s)
     return Progress::failed(fmt::format("no walking person within {:.0f} m for {:.0f} s",
                                         perception::DynamicObstacles::kMaxRange_m, intent_.lost_s));
@@ -141,9 +144,17 @@ Progress Follow::search(const ManeuverInput& input) {
   return Progress::running("waits for a walking person");
 }
 
-Progress Follow::progress(const ManeuverInput& input) {
+/// How long the person was not seen although the vehicle was near enough: a return may begin far away.
+double Follow::missed_s(const ManeuverInput& input, double distance_m) {
   const double unseen_s = person_->unseen_s(input.now);
+  if (!intent_.until_near) return unseen_s;
+  if (!last_far_ || distance_m > perception::DynamicObstacles::kMaxRange_m) last_far_ = input.now;
+  return std::min(unseen_s, (input.now - *last_far_).seconds());
+}
+
+Progress Follow::progress(const ManeuverInput& input) {
   const double distance_m = (person_->place_map_m(input.now) - input.position_map_m()).norm();
+  const double unseen_s = missed_s(input, distance_m);
   const common::Edge edge = lost_.update(unseen_s > kLost_s, input.now);
   if (edge == common::Edge::kEntered) setup_.memory.log.warn(input.now, kFlightSource, "the person is out of sight");
   if (edge == common::Edge::kLeft) setup_.memory.log.info(input.now, kFlightSource, "the person is seen again");
@@ -154,7 +165,8 @@ Progress Follow::progress(const ManeuverInput& input) {
     if (near_.active()) return Progress::done(fmt::format("{:.1f} m from the person", distance_m));
   }
   if (unseen_s > intent_.lost_s) return Progress::failed(fmt::format("the person was not seen for {:.0f} s", unseen_s));
-  return Progress::running(lost_.active() ? "looking for the person" : fmt::format("following, {:.1f} m", distance_m));
+  if (lost_.active()) return Progress::running("looking for the person");
+  return Progress::running(fmt::format("{}, {:.1f} m", intent_.until_near ? "returning" : "following", distance_m));
 }
 
 void Follow::pursue(const ManeuverInput& input) {
@@ -243,7 +255,9 @@ void Follow::flyTo(const ManeuverInput& input, const Eigen::Vector2d& target_map
   const bool same = target_map_m_ && (target_map_m - *target_map_m_).norm() < kReplan_m;
   if ((under_way && same) || !flight_.mayAsk()) return;
   target_map_m_ = target_map_m;
-  flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m}, person_.get());
+  // Who has stood there since before the map was made is an obstacle in it.
+  const double beside_m = intent_.until_near ? intent_.distance_m : 0.0;
+  flight_.ask(input, GoalRequest{target_map_m, kPersonTolerance_m, beside_m}, person_.get());
 }
 
 Progress Follow::answered(const PlanningAnswer& answer, Time now, const common::VehicleState& state) {

@@ -1,8 +1,9 @@
 // Land: done when the vehicle stands on the ground. In the air it cannot fail.
 //
 //   stop --> look beyond --> choose a place --> fly there --> descend
-//                             |  none, or no position      ^ or where it is, if it does not get there
-//                             +----------------------------+
+//    |                        |  none, or no position      ^ or where it is, if it does not get there
+//    |                        +----------------------------+
+//    +--> over a landing pattern that is seen: fly over its middle and down on it --^
 //
 // The place is the nearest one where the hull stands on one level, clear of the edges of tables and steps
 // (planning/costs/landing_place.hpp). The beams that look down have seen only the trail: where it ends, the vehicle
@@ -15,6 +16,7 @@
 #include <tl/expected.hpp>
 
 #include "autonomy/maneuvers/path_flight.hpp"
+#include "autonomy/maneuvers/pattern_descent.hpp"
 #include "autonomy/maneuvers/table.hpp"
 #include "planning/costs/landing_place.hpp"
 
@@ -45,17 +47,18 @@ class Land final : public Maneuver {
   Progress answered(const PlanningAnswer& answer, common::Time now, const common::VehicleState& state) override;
   Aim aim(const common::VehicleState&) const override {
     Aim aim = flight_.aim();
-    aim.goal_map_m = place_map_m_;
+    aim.goal_map_m = pattern_ ? pattern_->middle_map_m() : place_map_m_;
     return aim;
   }
 
  private:
-  enum class Phase { kStops, kLooksBeyond, kFliesThere, kDescends };
+  enum class Phase { kStops, kOverPattern, kLooksBeyond, kFliesThere, kDescends };
 
-  static Progress onGround(double drift_m);
+  Progress onGround(const ManeuverInput& input) const;
   void begin(const ManeuverInput& input);
   void choose(const ManeuverInput& input);
   void approach(const ManeuverInput& input);
+  Progress flyOverPattern(const ManeuverInput& input);
   void descend(common::Time now, const std::string& reason);
 
   ManeuverSetup setup_;
@@ -65,6 +68,7 @@ class Land final : public Maneuver {
   std::optional<common::Time> since_;                     ///< When the landing began.
   Eigen::Vector2d here_map_m_ = Eigen::Vector2d::Zero();  ///< Where it stopped to land; not in Phase::kStops.
   std::optional<Eigen::Vector2d> place_map_m_;            ///< Where it flies to; nullopt before it is chosen.
+  std::optional<PatternDescent> pattern_;                 ///< nullopt where no landing pattern is seen.
   std::string no_path_;                                   ///< Why there is no path to the place; empty if it has one.
 };
 
@@ -73,30 +77,40 @@ Land::Land(const common::LandIntent&, const ManeuverSetup& setup)
 
 Progress Land::step(const ManeuverInput& input) {
   if (!since_) since_ = input.now;
-  if (!control::isAirborne(setup_.controller.state())) return onGround(input.drift_m);
+  if (!control::isAirborne(setup_.controller.state())) return onGround(input);
   if (setup_.controller.state() != FlightState::kFlying) {
     if (phase_ != Phase::kDescends) descend(input.now, {});
   } else {
     if (phase_ == Phase::kStops) begin(input);
+    if (phase_ == Phase::kOverPattern) return flyOverPattern(input);
     if (phase_ == Phase::kLooksBeyond || phase_ == Phase::kFliesThere) approach(input);
   }
   return commanded_ ? Progress::running() : Progress::failed(commanded_.error());
 }
 
 /// A landing is a success only at a place that is known.
-Progress Land::onGround(double drift_m) {
-  if (drift_m <= ManeuverInput::kKnown_m) return Progress::done("on the ground");
-  return Progress::failed(fmt::format("on the ground, at a place that is uncertain by {:.1f} m", drift_m));
+Progress Land::onGround(const ManeuverInput& input) const {
+  if (input.drift_m > ManeuverInput::kKnown_m)
+    return Progress::failed(fmt::format("on the ground, at a place that is uncertain by {:.1f} m", input.drift_m));
+  if (!pattern_) return Progress::done("on the ground");
+  return Progress::done(
+      fmt::format("on the ground, {:.2f} m off the middle of `{}`", pattern_->off_m(input), pattern_->name()));
 }
 
 /// Where the vehicle stops it looks for a place. Without a position it lands where it is.
 void Land::begin(const ManeuverInput& input) {
   const auto cost_map = setup_.desk.costMap();
+  const auto pattern = input.state.horizontal_valid ? PatternDescent::below(input) : std::nullopt;
   const bool knows = input.state.horizontal_valid && input.surfaces && !input.surfaces->levels.empty() && cost_map;
-  if (!knows || setup_.retreat.active()) return descend(input.now, {});
+  if ((!knows && !pattern) || setup_.retreat.active()) return descend(input.now, {});
   if (!setup_.controller.stopped() && (input.now - *since_).seconds() < kStopping_s) return;
 
   here_map_m_ = input.position_map_m();
+  if (pattern) {
+    pattern_.emplace(*pattern);
+    phase_ = Phase::kOverPattern;
+    return;
+  }
   if (const auto& stood_map_m = setup_.memory.stood_map_m;
       stood_map_m && (*stood_map_m - here_map_m_).norm() < kTakeOffPlace_m && !isLethalAt(*cost_map, *stood_map_m)) {
     place_map_m_ = stood_map_m;
@@ -108,6 +122,19 @@ void Land::begin(const ManeuverInput& input) {
     phase_ = Phase::kLooksBeyond;
   else
     choose(input);
+}
+
+/// Without a position, or kept off by a retreat or the wind, it lands where it is.
+Progress Land::flyOverPattern(const ManeuverInput& input) {
+  const bool may_fly = input.state.horizontal_valid && !setup_.retreat.active();
+  const auto status =
+      may_fly ? pattern_->step(input, setup_.controller) : PatternDescent::Status::kKeptOff;
+  if (status == PatternDescent::Status::kFlies)
+    return Progress::running(
+        fmt::format("landing on `{}`, {:.2f} m off its middle", pattern_->name(), pattern_->off_m(input)));
+  const bool kept_off = status == PatternDescent::Status::kKeptOff;
+  descend(input.now, kept_off ? "it was kept off the middle of `" + pattern_->name() + "`" : "");
+  return commanded_ ? Progress::running("descending") : Progress::failed(commanded_.error());
 }
 
 void Land::choose(const ManeuverInput& input) {

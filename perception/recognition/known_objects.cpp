@@ -1,10 +1,12 @@
 #include "perception/recognition/known_objects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "common/config_fields.hpp"
+#include "common/geometry.hpp"
 #include "common/validation.hpp"
 #include "perception/recognition/object_tracker.hpp"
 #include "perception/recognition/pattern_recognizer.hpp"
@@ -14,6 +16,28 @@ namespace swiftlet::perception {
 
 using common::Message;
 using common::Problem;
+
+namespace {
+
+/// A scan plane that is more tilted meets the floor within the reach of a door that is told from a wall.
+constexpr double kLevel_rad = 6.0 * common::kRadPerDeg;
+
+/// Without depths openings are known as far as the level laser shows them, in the axes of the camera.
+std::vector<Recognized> openingsInScan(const Observation& observation) {
+  const Eigen::Quaterniond R_level_laser = observation.R_level_camera * observation.T_camera_laser.rotation;
+  if ((R_level_laser * Eigen::Vector3d::UnitZ()).z() < std::cos(kLevel_rad)) return {};
+  std::vector<Recognized> openings = ScanOpeningRecognizer(OpeningConfig{}).recognize(observation);
+  const Eigen::Matrix3d R = observation.T_camera_laser.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = R;
+  for (Recognized& opening : openings) {
+    opening.T_sensor_object = observation.T_camera_laser * opening.T_sensor_object;
+    opening.covariance = turn * opening.covariance * turn.transpose();
+  }
+  return openings;
+}
+
+}  // namespace
 
 void KnownObjectConfig::describe(common::config::Fields& fields) {
   fields("name", name, "`openings` for windows and doors, or the name of a pattern, by which missions ask for it.");
@@ -66,7 +90,7 @@ tl::expected<KnownObjects, Problem> KnownObjects::create(const std::vector<Known
 
 std::vector<Recognized> KnownObjects::recognize(const Observation& observation) {
   std::vector<Recognized> all;
-  if (openings_) all = openings_->recognize(observation);
+  if (openings_) all = hasWholeDepths(observation) ? openings_->recognize(observation) : openingsInScan(observation);
   for (const auto& recognizer : recognizers_)
     for (Recognized& one : recognizer->recognize(observation)) {
       const auto known =

@@ -82,5 +82,29 @@ TEST(ReturnToMe, EndsNearThePerson) {
   EXPECT_EQ(flight.succeeds().tick(), "DONE");
 }
 
+TEST(ReturnToMe, FliesToThePlaceFromWhichItIsCalled) {
+  Flight flight(R"(<ReturnToMe place="2.5;-1" distance_m="1.6" mode="careful"/>)");
+  flight.at(-3.0, -1.0);
+  EXPECT_EQ(flight.tick(), "RUNNING 1 go to (0.90, -1.00)") << "on the side of the vehicle";
+  EXPECT_NEAR(*intentOf<common::GoToIntent>(flight).yaw_map_rad, 0.0, 1e-9) << "it looks at the person";
+  EXPECT_EQ(intentOf<common::GoToIntent>(flight).mode, common::FlightMode::kCareful);
+  EXPECT_EQ(flight.succeeds().tick(), "DONE");
+  Flight beyond(R"(<ReturnToMe place="9;9"/>)");
+  EXPECT_EQ(beyond.tick(), "FAILED");
+  EXPECT_EQ(beyond.cause(), "ReturnToMe: no place near (9.00, 9.00) is free");
+}
+
+/// The operator calls while the vehicle explores: "go on" ends the exploration.
+TEST(ReturnToMe, ACallEndsTheExplorationOnceTheVehicleHasStopped) {
+  Flight flight(R"(<Sequence><Parallel success_count="1" failure_count="2"><Explore/>)"
+                R"(<WaitForOperator question="Come to me?"/></Parallel><ReturnToMe/></Sequence>)");
+  EXPECT_EQ(flight.tick(), "RUNNING 1 explore");
+  flight.runs().command({0, common::GoOnCommand{}}).tick();
+  EXPECT_EQ(flight.results().back(), "1 accepted");
+  EXPECT_THAT(flight.runs().tick(), HasSubstr("hold"));
+  EXPECT_THAT(flight.stops().tick(), HasSubstr("return to the person"));
+  EXPECT_EQ(flight.succeeds().tick(), "DONE");
+}
+
 }  // namespace
 }  // namespace swiftlet::behaviors::testing

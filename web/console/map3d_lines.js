@@ -1,10 +1,11 @@
-// The lines of the 3D view: the floor, the trail, the plan, the vehicle and its camera, in the map.
+// The lines of the 3D view: the floor, the trail, the plan, the targets, the vehicle and its camera, in the map.
 import { poseMatrix, quaternionFrom, transformed } from './matrices.js';
 import { inverse, moved } from './pose2.js';
 
 const kCameraPyramid_m = 0.5;
 const kCorners = 24;
 const kMostFloorLines = 40;
+const kArrow_m = 0.6, kArrowHead_m = 0.15;
 
 /** [r, g, b, a] from 0 to 1, of a colour as the style sheet writes it. */
 export function rgba(text) {
@@ -39,6 +40,13 @@ function vehicleLines(pose, radius) {
   return [...points, x, y, z, x, y, 0];
 }
 
+/** An arrow that points down at a target that was found. */
+function arrowLines({ x_m, y_m, z_m }) {
+  const tip = [x_m, y_m, z_m], side = kArrowHead_m / 2;
+  const tails = [[0, 0, kArrow_m], [-side, 0, kArrowHead_m], [side, 0, kArrowHead_m], [0, -side, kArrowHead_m], [0, side, kArrowHead_m]];
+  return tails.flatMap((tail) => [...tail.map((value, axis) => tip[axis] + value), ...tip]);
+}
+
 function cameraLines({ pose, across, up }) {
   const m = poseMatrix(pose);
   const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([left, above]) =>
@@ -52,6 +60,9 @@ export function linesOf(store, map3d, box, colors) {
   const add = (points, color, pairs = true) => points.length >= 6 && lines.push({ points, color: rgba(color), pairs });
   if (box) add(floorLines(box.low, box.high, inverse(store.shown().T_shown_map)), colors.grid);
   add(store.trail.flatMap(([x, y]) => [x, y, 0.02]), colors.trail, false);
+  const found = (store.state?.targets ?? []).filter((target) => target.state === 'found');
+  const patterns = (store.state?.objects ?? []).filter(({ confirmed, passage, what }) => confirmed && passage === 'none' && what !== 'mirror');
+  add([...found, ...patterns].flatMap(arrowLines), colors.goal);
   const pose = store.state?.pose;
   if (pose && pose.x_m !== null && pose.z_m !== null) {
     const position = [pose.x_m, pose.y_m, pose.z_m];

@@ -29,7 +29,7 @@ export function paintGoal(view, [x, y], color, crossed) {
   if (!crossed) view.paintDisc(x, y, 3, color);
 }
 
-/** A diamond with its name; hollow while the target is only a candidate. */
+/** A diamond with its name; hollow while the target is only a candidate, and with an arrow at it once it is found. */
 export function paintTarget(view, { x_m, y_m, label, state }) {
   const { context, colors } = view;
   const [x, y] = view.toScreen(x_m, y_m);
@@ -41,7 +41,14 @@ export function paintTarget(view, { x_m, y_m, label, state }) {
   };
   diamond(12, colors.free);
   diamond(9, colors.goal);
-  if (state === 'candidate') diamond(5, colors.free);
+  if (state === 'candidate') {
+    diamond(5, colors.free);
+  } else {
+    context.beginPath();
+    for (const [dx, dy] of [[-6, -22], [6, -22], [0, -13]]) context.lineTo(x + dx, y + dy);
+    context.fill();
+    context.fillRect(x - 1.5, y - 35, 3, 14);
+  }
   view.paintText(label, x + 14, y + 4, 'left');
 }
 

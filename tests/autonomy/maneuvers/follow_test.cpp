@@ -177,7 +177,44 @@ TEST_F(FollowInFlight, CannotReturnToNobody) {
   back.until_near = true;
   want(back);
   EXPECT_EQ(runToTheEnd(1.0), IntentState::kFailed);
-  EXPECT_EQ(executor_.status().reason, "no person was followed before");
+  EXPECT_EQ(executor_.status().reason, "no person was followed or seen walking before");
+}
+
+/// The person walked through the room while the vehicle did something else, stands since, and is in the map by now.
+TEST_F(FollowInFlight, ReturnsToWhereSomebodyWasLastSeenWalking) {
+  want(to(1.0, 1.0));
+  walk(6.0, 2.4, 0.8);
+  people_.clear();
+  discs_.clear();
+  planning::test::fill(grid_, {{118, 46}, {122, 50}}, planning::test::kWallCell);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  common::FollowIntent back;
+  back.until_near = true;
+  want(back);
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_LT(distanceTo_m({6.0, 2.4}), 2.6);
+  EXPECT_GT(distanceTo_m({6.0, 2.4}), 1.5);
+}
+
+/// The time of a long flight does not count as time in which the person was not seen.
+TEST_F(FollowInFlight, DoesNotMissAPersonWhoIsFarAway) {
+  want(to(0.8, 0.8));
+  walk(7.4, 0.9, 1.5);
+  people_.clear();
+  discs_.clear();
+  ASSERT_EQ(runToTheEnd(20.0), IntentState::kSucceeded);
+  common::FollowIntent back;
+  back.until_near = true;
+  back.lost_s = 3.0;
+  back.mode = common::FlightMode::kAccurate;
+  want(back);
+  run(1.0);
+  follows_ = false;
+  run(4.0);
+  EXPECT_EQ(executor_.status().state, IntentState::kRunning) << "6.6 m away";
+  follows_ = true;
+  EXPECT_EQ(runToTheEnd(40.0), IntentState::kFailed) << "nobody is seen from near";
+  EXPECT_THAT(executor_.status().reason, StartsWith("the person was not seen for 3 s"));
 }
 
 }  // namespace
