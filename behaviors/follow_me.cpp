@@ -151,6 +151,27 @@ IntentLeaf::IntentOrProblem ReturnToMe::makeIntent(const FlightTick& tick) {
   return *beside;
 }
 
+PersonLeaf::PersonLeaf(const tree::NodeSetup& setup, bool until_near)
+    : IntentLeaf(setup),
+      until_near_(until_near),
+      distance_m_(setup, "distance_m"),
+      lost_s_(setup, "lost_s"),
+      clearance_m_(setup, "clearance_m"),
+      mode_(setup, "mode") {}
+
+IntentLeaf::IntentOrProblem PersonLeaf::makeIntent(const FlightTick& tick) {
+  const auto distance_m = distance_m_.get();
+  const auto lost = lost_s_.get();
+  const auto clearance_m = clearance_m_.get();
+  const auto mode = modeOr(mode_, tick.mode);
+  if (!distance_m) return tl::unexpected(distance_m_.problem());
+  if (!lost) return tl::unexpected(lost_s_.problem());
+  if (!clearance_m) return tl::unexpected(clearance_m_.problem());
+  if (!mode) return tl::unexpected(mode_.problem());
+  return common::FollowIntent{*distance_m, 1e-9 * static_cast<double>(lost->nanoseconds), until_near_, *clearance_m,
+                              *mode};
+}
+
 }  // namespace
 
 void addFollowMe(tree::Registry& registry) {
