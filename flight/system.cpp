@@ -223,16 +223,13 @@ void readPatterns(System& system, const ProfilePlaces& places) {
   if (objects.empty()) return;
   const std::string key = "autonomy.estimator.recognition";
   const common::SourceLocation place = places.of(key + "[0].name");
-  if (!system.rgbd_camera)
-    throw common::InputError(place, key, common::Message("profile.recognition-blind", "no camera sees what is recognized"),
-                             "name an rgbd_camera, such as xtion");
+  const bool patterns = std::any_of(objects.begin(), objects.end(), [](const auto& one) { return one.isPattern(); });
+  if (patterns && !system.rgbd_camera)
+    throw common::InputError(place, key,
+                             common::Message("profile.recognition-blind", "no camera sees the patterns that are recognized"),
+                             "name an rgbd_camera, such as xtion, or recognize openings alone");
   for (std::size_t i = 0; i < objects.size(); ++i) {
     perception::KnownObjectConfig& object = objects[i];
-    if (!object.isPattern() && !system.hasDepthCamera())
-      throw common::InputError(
-          place, key, common::Message("profile.openings-flat", "`{}` are seen in depths, which a stereo pair has not",
-                                      object.name),
-          "name an RGB-D camera, such as xtion, or recognize patterns alone");
     if (object.picture.empty()) continue;
     const std::string file =
         namedFile(object.picture, "patterns", key, places.of(fmt::format("{}[{}].picture", key, i)));
