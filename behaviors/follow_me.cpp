@@ -77,15 +77,15 @@ std::vector<tree::PortManifest> personPorts() {
 /// The free place at the distance of `asked` from a person that is nearest to the vehicle, and in sight of that person.
 std::optional<common::GoToIntent> placeBeside(const FlightTick& tick, const Eigen::Vector2d& person_map_m,
                                               const common::FollowIntent& asked) {
-  constexpr int kBearings = 36;                   // Every 10 degrees.
+  constexpr int kSidesOfPerson = 36;                   // Every 10 degrees.
   constexpr double kPersonStands_m = 0.5;         // What the map has there may be the person.
   constexpr double kBesideTolerance_m = 0.2;      // Within the sway of a person who stands.
   const common::World& world = *tick.flight.world;
   const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
   const auto& map = tick.flight.goal_map;
   std::optional<common::GoToIntent> nearest;
-  for (int i = 0; i < kBearings; ++i) {
-    const double bearing_rad = 2.0 * std::numbers::pi * i / kBearings;
+  for (int i = 0; i < kSidesOfPerson; ++i) {
+    const double bearing_rad = 2.0 * std::numbers::pi * i / kSidesOfPerson;
     const Eigen::Vector2d place_map_m =
         person_map_m + asked.distance_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
     if (map && map->stateAt(place_map_m, asked.clearance_m) != common::PlaceState::kFree) continue;
