@@ -120,14 +120,13 @@ void RecognitionPipeline::look(const FrameSituation& situation, const common::Po
   auto placed = frames_.take(situation, T_body_camera, context.drift_m);
   if (!placed) return;
   const auto scan = scanAt(*placed, T_body_camera, time, context);
-  jobs_.submit(
-      kRecognition, now, Duration::fromSeconds(kRecognizeLatency_s),
-      [this, known = known_, placed = *std::move(placed), scan, time]() -> common::JobRunner::Deliver {
-        return [this, placed, time, recognized = recognize(*known, placed, scan)](Time) {
-          tracker_.add(recognized, {placed.key, placed.T_key_camera, placed.position_sigma_m, placed.turn_rate_rad_s,
-                                    time, *placed.keys});
-        };
-      });
+  jobs_.submit(kRecognition, now, Duration::fromSeconds(kRecognizeLatency_s),
+               [this, known = known_, placed = *std::move(placed), scan, time]() -> common::JobRunner::Deliver {
+                 return [this, placed, time, recognized = recognize(*known, placed, scan)](Time) {
+                   tracker_.add(recognized, {placed.key, placed.T_key_camera, placed.position_sigma_m,
+                                             placed.turn_rate_rad_s, time, *placed.keys});
+                 };
+               });
 }
 
 std::shared_ptr<const common::ObjectsLayer> RecognitionPipeline::layer(const common::KeyPoses& keys) const {

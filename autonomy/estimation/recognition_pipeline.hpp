@@ -55,8 +55,8 @@ class RecognitionPipeline {
     std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
     double drift_m = 0.0;                               ///< See DriftMonitor.
   };
-  /// Looks at the next frame, taken at `time` by a camera with that mount. Without a pose that a measurement supports it
-  /// is left out.
+  /// Looks at the next frame, taken at `time` by a camera with that mount. Without a pose that a measurement supports
+  /// it is left out.
   void look(const FrameSituation& situation, const common::Pose3& T_body_camera, common::Time time,
             const Context& context, common::Time now);
 
