@@ -78,8 +78,7 @@ class RecognitionPipeline {
     bool operator==(const Said&) const = default;
   };
   common::Time middleOf(const common::LaserScan& scan) const;
-  std::optional<PlacedScan> scanAt(const PlacedFrame& placed, const common::Pose3& T_body_camera, common::Time time,
-                                   const Context& context) const;
+  std::optional<PlacedScan> scanAt(const PlacedFrame& placed, common::Time time, const Context& context) const;
   static std::vector<perception::Recognized> recognize(perception::KnownObjects& known, const PlacedFrame& placed,
                                                        const std::optional<PlacedScan>& scan);
 
