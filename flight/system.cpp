@@ -224,14 +224,15 @@ void readPatterns(System& system, const ProfilePlaces& places) {
   const std::string key = "autonomy.estimator.recognition";
   const common::SourceLocation place = places.of(key + "[0].name");
   if (!system.rgbd_camera)
-    throw common::InputError(place, key, common::Message("profile.recognition-blind", "no camera sees what is recognized"),
+    throw common::InputError(place, key,
+                             common::Message("profile.recognition-blind", "no camera sees what is recognized"),
                              "name an rgbd_camera, such as xtion");
   for (std::size_t i = 0; i < objects.size(); ++i) {
     perception::KnownObjectConfig& object = objects[i];
     if (!object.isPattern() && !system.hasDepthCamera())
       throw common::InputError(
-          place, key, common::Message("profile.openings-flat", "`{}` are seen in depths, which a stereo pair has not",
-                                      object.name),
+          place, key,
+          common::Message("profile.openings-flat", "`{}` are seen in depths, which a stereo pair has not", object.name),
           "name an RGB-D camera, such as xtion, or recognize patterns alone");
     if (object.picture.empty()) continue;
     const std::string file =
