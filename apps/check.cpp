@@ -205,8 +205,7 @@ void addCheck(Command& program) {
       program.command("check", "Validate missions without flying; every error and every warning with its place.");
   command.arguments("missions", options->missions, "Mission files.");
   command.option("--system", options->system, "The profile they are to be flown with.");
-  command.option("--places", options->places,
-                 "The topological map they are to be flown with, whose places they name.");
+  command.option("--places", options->places, "The topological map they are to be flown with, whose places they name.");
   command.leavesOption(options->leaves);
   command.option("--dry-run", options->dry_run,
                  "Also tick the mission, with answers of its leaves from this script, and print what happens: lines as "

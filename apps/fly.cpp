@@ -14,9 +14,9 @@
 #include "apps/start_option.hpp"
 #include "behaviors/mission_check.hpp"
 #include "common/data_paths.hpp"
-#include "common/topological_map.hpp"
 #include "common/printable.hpp"
 #include "common/rounding.hpp"
+#include "common/topological_map.hpp"
 #include "common/world.hpp"
 #include "common/world/energy_layer.hpp"
 #include "common/world/map_layer.hpp"
@@ -218,7 +218,9 @@ nlohmann::json endJson(const simulated_flight::FlightResult& result) {
 /// "window 1 open at (2.00, 0.10, 1.30), red 1 at ...": what was found and recognized; empty without any.
 std::string foundText(const interfaces::FlightSummary& summary) {
   std::vector<std::string> found;
-  const auto at = [](const Eigen::Vector3d& p) { return fmt::format(" at ({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z()); };
+  const auto at = [](const Eigen::Vector3d& p) {
+    return fmt::format(" at ({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z());
+  };
   for (const common::Target& target : summary.targets)
     if (target.state == common::TargetState::kFound) found.push_back(labelOf(target) + at(target.position_map_m));
   for (const common::RecognizedObject& object : summary.objects)
@@ -248,8 +250,8 @@ void printEnd(const simulated_flight::FlightResult& result, bool json) {
 
 std::shared_ptr<const common::TopologicalMap> placesOf(const FlyOptions& options) {
   if (options.places.empty()) return nullptr;
-  auto places =
-      std::make_shared<const common::TopologicalMap>(common::readTopologicalMap(common::findData(options.places).string()));
+  auto places = std::make_shared<const common::TopologicalMap>(
+      common::readTopologicalMap(common::findData(options.places).string()));
   if (places->frame == common::PlacesFrame::kGiven && options.map.empty())
     throw common::InputError({options.places}, "frame",
                              common::Message("places.no-map", "they are those of a given map, and the flight has none"),
@@ -351,9 +353,10 @@ void addFly(Command& program) {
                  "profile, nature and charge.");
   command.option("--map", options->map,
                  "A map of the place (YAML of map_server): the flight finds out where it is in it.");
-  command.option("--places", options->places,
-                 "A topological map (topological_map.yaml of a run), whose places, passages and danger zones the mission "
-                 "may name: goal=\"{kitchen}\".");
+  command.option(
+      "--places", options->places,
+      "A topological map (topological_map.yaml of a run), whose places, passages and danger zones the mission "
+      "may name: goal=\"{kitchen}\".");
   command.option("--system", options->system,
                  "A profile of config/systems, or a file. Default: the scenario's, or swiftlet.");
   command.option(

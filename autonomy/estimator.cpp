@@ -62,7 +62,8 @@ Estimator::Estimator(const EstimatorConfig& config, const common::LaserConfig& l
       altitude_(config.altitude, vehicle.hullRadius_m()),
       map_(config.slam, common::Duration::fromSeconds(config.slam_latency_s), jobs, log),
       localizer_(given, config.localization, jobs, log),
-      space_({config.rgbd, config.vertical_laser, config.targets, config.recognition, laser}, camera, vertical_laser, jobs, log),
+      space_({config.rgbd, config.vertical_laser, config.targets, config.recognition, laser}, camera, vertical_laser,
+             jobs, log),
       poses_(*filter_),
       uncertainty_(*filter_) {}
 
@@ -97,9 +98,9 @@ bool Estimator::addFrame(std::shared_ptr<const common::RgbdFrame> frame) {
 
 void Estimator::updateMap3d(Time now, const common::PlaceNames& names) {
   if (const auto step = space_.takeStep(map_.keyPoses(), now)) fuse(*step, now);
-  space_.map({poses_, map_.keyPoses(), people_, uncertainty_.drift_m(), names,
-              space_.recognizes() ? map_.grid() : nullptr},
-             now);
+  space_.map(
+      {poses_, map_.keyPoses(), people_, uncertainty_.drift_m(), names, space_.recognizes() ? map_.grid() : nullptr},
+      now);
 }
 
 /// While the vehicle stands still, its first scans start the filter.

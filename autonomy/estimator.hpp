@@ -90,7 +90,7 @@ struct EstimatedMaps {
   std::shared_ptr<const common::LevelMap> levels;
   /// Null without a camera and an upright laser, and before the first frame or sweep.
   std::shared_ptr<const common::Map3dLayer> map3d;
-  std::vector<common::Target> targets;               ///< Targets that the profile names, as the camera has seen them.
+  std::vector<common::Target> targets;  ///< Targets that the profile names, as the camera has seen them.
   std::shared_ptr<const common::ObjectsLayer> objects;  ///< Null unless the profile names something to recognize.
   std::optional<common::Localization> localization;     ///< nullopt without a given map.
 };

@@ -101,7 +101,8 @@ Mission Mission::fromText(const std::string& text, const std::string& name, cons
 
 Mission Mission::fromText(const std::string& text, const std::string& name, const MissionLimits& limits,
                           const NodeTypes& types) {
-  return Mission(std::make_unique<Impl>(types, flyable(tree::parseText(text, name, *types, parseOptionsOf(limits)), limits)));
+  return Mission(
+      std::make_unique<Impl>(types, flyable(tree::parseText(text, name, *types, parseOptionsOf(limits)), limits)));
 }
 
 TickResult Mission::tick(Context& context) {

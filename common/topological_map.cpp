@@ -61,19 +61,22 @@ void DangerZone::describe(config::Fields& fields) {
 
 std::vector<Problem> DangerZone::validate() const {
   Validation validation = named(name);
-  validation.require(corners_m.size() % 2 == 0, "corners_m",
-                     Message("places.odd-corners", "{} numbers are no corners, each has an x and a y", corners_m.size()));
+  validation.require(
+      corners_m.size() % 2 == 0, "corners_m",
+      Message("places.odd-corners", "{} numbers are no corners, each has an x and a y", corners_m.size()));
   Polygon area;
-  for (std::size_t i = 0; i + 1 < corners_m.size(); i += 2) area.corners_map_m.emplace_back(corners_m[i], corners_m[i + 1]);
+  for (std::size_t i = 0; i + 1 < corners_m.size(); i += 2)
+    area.corners_map_m.emplace_back(corners_m[i], corners_m[i + 1]);
   if (const auto problem = problemOf(area))
     validation.require(false, "corners_m", Message("places.polygon", "{}", problem->text()));
   return validation.problems();
 }
 
 void TopologicalMap::describe(config::Fields& fields) {
-  fields.choice("frame", frame, {"map", "given"},
-                "Frame of all coordinates: that of the map.yaml of the same run, or that of the map that the flight was "
-                "given.");
+  fields.choice(
+      "frame", frame, {"map", "given"},
+      "Frame of all coordinates: that of the map.yaml of the same run, or that of the map that the flight was "
+      "given.");
   fields.list("places", places, "Places with a name.");
   fields.list("passages", passages, "Windows and doors between free areas.");
   fields.list("danger_zones", danger_zones, "Areas to keep out of.");

@@ -19,8 +19,8 @@ enum class PlacesFrame {
 
 /// A place that a mission named, or a pattern that was recognized.
 struct MapPlace {
-  std::string name;
-  std::string what;
+  std::string name = {};
+  std::string what = {};
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double yaw_deg = 0.0;
   double sigma_m = 0.0;
@@ -31,8 +31,8 @@ struct MapPlace {
 
 /// A window or a door.
 struct MapPassage {
-  std::string name;
-  std::string what;
+  std::string name = {};
+  std::string what = {};
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
   double normal_deg = 0.0;
   double width_m = 0.0, height_m = 0.0;

@@ -29,7 +29,7 @@ struct FlightSetup {
   std::shared_ptr<const FlightMap> map = nullptr;  ///< The map to localize in; null: no given map.
   VehicleMemorySetup memory = {};
   std::shared_ptr<const common::TopologicalMap> places = nullptr;  ///< What missions may name; null: nothing.
-  bool control_log = false;            ///< Whether the run keeps control.tsv.
+  bool control_log = false;                                        ///< Whether the run keeps control.tsv.
   bool record_rgbd = false;            ///< Whether the run keeps the frames of the RGB-D camera.
   bool wait = false;                   ///< On the ground, until the operator starts a mission.
   std::filesystem::path out = {};      ///< Folder of the run; empty: a new one, runs/STARTED-MISSION.

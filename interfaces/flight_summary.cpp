@@ -162,8 +162,8 @@ std::string toJson(const FlightSummary& summary) {
 std::string objectsJson(const std::vector<common::RecognizedObject>& objects) {
   ordered_json list = ordered_json::array();
   for (const common::RecognizedObject& object : objects) list.push_back(objectJson(object));
-  return ordered_json{{"format", "swiftlet objects 1"}, {"objects", list}}.dump(2, ' ', false,
-                                                                              ordered_json::error_handler_t::replace) +
+  return ordered_json{{"format", "swiftlet objects 1"}, {"objects", list}}.dump(
+             2, ' ', false, ordered_json::error_handler_t::replace) +
          "\n";
 }
 

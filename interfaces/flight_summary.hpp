@@ -97,8 +97,8 @@ struct FlightSummary {
   std::optional<LocalizationSummary> localization;  ///< nullopt without a given map.
   std::vector<Phase> phases;
   std::optional<double> octree_age_s;  ///< How much older map.bt and map.ot are than the summary; nullopt without them.
-  std::vector<common::Frontier> frontiers;  ///< The frontiers that remained, each with its reason.
-  std::vector<common::Target> targets;      ///< What the camera has found of those that it looked for.
+  std::vector<common::Frontier> frontiers;        ///< The frontiers that remained, each with its reason.
+  std::vector<common::Target> targets;            ///< What the camera has found of those that it looked for.
   std::vector<common::RecognizedObject> objects;  ///< What the camera has recognized, candidates included.
   std::vector<Figure> figures;
   std::vector<FlightSample> samples;

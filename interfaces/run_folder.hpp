@@ -45,7 +45,7 @@
 namespace swiftlet::common {
 struct World;
 struct TopologicalMap;
-}
+}  // namespace swiftlet::common
 
 namespace swiftlet::interfaces {
 

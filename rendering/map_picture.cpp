@@ -19,7 +19,9 @@ void addObjects(const common::ObjectsLayer& layer, std::vector<MapMark>& marks) 
     const bool opening = open || object.passage == common::Passage::kClosed || object.what == "mirror";
     marks.push_back({labelOf(object),
                      {T.position_m.x(), T.position_m.y(), common::yawOf(T.rotation)},
-                     !opening ? MarkStyle::kTarget : open ? MarkStyle::kOpen : MarkStyle::kClosed,
+                     !opening ? MarkStyle::kTarget
+                     : open   ? MarkStyle::kOpen
+                              : MarkStyle::kClosed,
                      object.size_m.x()});
   }
 }

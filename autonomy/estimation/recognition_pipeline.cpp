@@ -74,9 +74,8 @@ Time RecognitionPipeline::middleOf(const common::LaserScan& scan) const {
   return scan.stamps.measured + scan.time_increment * static_cast<std::int64_t>(scan.ranges_m.size() / 2);
 }
 
-std::optional<RecognitionPipeline::PlacedScan> RecognitionPipeline::scanAt(const PlacedFrame& placed,
-                                                                           const common::Pose3& T_body_camera,
-                                                                           Time time, const Context& context) const {
+std::optional<RecognitionPipeline::PlacedScan> RecognitionPipeline::scanAt(const PlacedFrame& placed, Time time,
+                                                                           const Context& context) const {
   std::shared_ptr<const common::LaserScan> nearest;
   double apart_s = kSameTime_s;
   for (const auto& scan : scans_) {
@@ -119,15 +118,14 @@ void RecognitionPipeline::look(const FrameSituation& situation, const common::Po
                                const Context& context, Time now) {
   auto placed = frames_.take(situation, T_body_camera, context.drift_m);
   if (!placed) return;
-  const auto scan = scanAt(*placed, T_body_camera, time, context);
-  jobs_.submit(
-      kRecognition, now, Duration::fromSeconds(kRecognizeLatency_s),
-      [this, known = known_, placed = *std::move(placed), scan, time]() -> common::JobRunner::Deliver {
-        return [this, placed, time, recognized = recognize(*known, placed, scan)](Time) {
-          tracker_.add(recognized, {placed.key, placed.T_key_camera, placed.position_sigma_m, placed.turn_rate_rad_s,
-                                    time, *placed.keys});
-        };
-      });
+  const auto scan = scanAt(*placed, time, context);
+  jobs_.submit(kRecognition, now, Duration::fromSeconds(kRecognizeLatency_s),
+               [this, known = known_, placed = *std::move(placed), scan, time]() -> common::JobRunner::Deliver {
+                 return [this, placed, time, recognized = recognize(*known, placed, scan)](Time) {
+                   tracker_.add(recognized, {placed.key, placed.T_key_camera, placed.position_sigma_m,
+                                             placed.turn_rate_rad_s, time, *placed.keys});
+                 };
+               });
 }
 
 std::shared_ptr<const common::ObjectsLayer> RecognitionPipeline::layer(const common::KeyPoses& keys) const {

@@ -55,8 +55,8 @@ class RecognitionPipeline {
     std::shared_ptr<const common::OccupancyGrid> grid;  ///< Never null.
     double drift_m = 0.0;                               ///< See DriftMonitor.
   };
-  /// Looks at the next frame, taken at `time` by a camera with that mount. Without a pose that a measurement supports it
-  /// is left out.
+  /// Looks at the next frame, taken at `time` by a camera with that mount. Without a pose that a measurement supports
+  /// it is left out.
   void look(const FrameSituation& situation, const common::Pose3& T_body_camera, common::Time time,
             const Context& context, common::Time now);
 
@@ -78,8 +78,7 @@ class RecognitionPipeline {
     bool operator==(const Said&) const = default;
   };
   common::Time middleOf(const common::LaserScan& scan) const;
-  std::optional<PlacedScan> scanAt(const PlacedFrame& placed, const common::Pose3& T_body_camera, common::Time time,
-                                   const Context& context) const;
+  std::optional<PlacedScan> scanAt(const PlacedFrame& placed, common::Time time, const Context& context) const;
   static std::vector<perception::Recognized> recognize(perception::KnownObjects& known, const PlacedFrame& placed,
                                                        const std::optional<PlacedScan>& scan);
 

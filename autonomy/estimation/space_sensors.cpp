@@ -110,9 +110,11 @@ void SpaceSensors::recognize(const MapSituation& situation, Time now) {
   if (!hasCamera() && !recognition_->next(0.0)) recognition_->add(emptyFrame(now));
   const common::CameraEstimate camera = anyCamera();
   const auto time = recognition_->next(camera.clock_offset_s);
-  if (time && situation.poses.isKnown(*time, now, recognition_->waitUntil()))
-    recognition_->look(situationAt(*time, situation, now), camera.T_body_camera, *time,
-                       {situation.poses, situation.grid, situation.drift_m}, now);
+  if (!time || !situation.poses.isKnown(*time, now, recognition_->waitUntil())) return;
+  FrameSituation at = situationAt(*time, situation, now);
+  // Where the laser is blind, the stereo camera that shows the frame has measured its place.
+  at.supported = at.supported || isPlacedByStereo(now);
+  recognition_->look(at, camera.T_body_camera, *time, {situation.poses, situation.grid, situation.drift_m}, now);
 }
 
 void SpaceSensors::mapSweeps(const MapSituation& situation, Time now) {

@@ -61,7 +61,7 @@ constexpr double kWaitsBefore_m = 0.35;
 /// Something stays in the way when it has not got on by kMoved_m within this time.
 constexpr double kStuck_s = 6.0, kMoved_m = 0.10;
 /// Distances beside the wanted one that will do before and behind the opening, where the wanted one is not free.
-constexpr std::array kOtherDistances = {1.0, 0.8, 1.25};
+constexpr std::array kOtherDistances = {1.0, 1.25, 0.8};
 /// A middle whose height is known worse than this says less than the present height.
 constexpr double kHeightSigma_m = 0.15;
 /// Far enough for a point to be faced from everywhere on the axis with one heading.
@@ -73,6 +73,22 @@ const RecognizedObject* withId(const common::ObjectsLayer* layer, int id) {
   if (layer == nullptr) return nullptr;
   const auto found = std::ranges::find(layer->objects, id, &RecognizedObject::id);
   return found == layer->objects.end() ? nullptr : &*found;
+}
+
+/// The nearest of that name in the same place; null without one.
+const RecognizedObject* inPlace(const common::ObjectsLayer* layer, const std::string& what,
+                                const Eigen::Vector2d& place_map_m) {
+  constexpr double kOnePlace_m = 0.3;  // As for the tracker: two openings are farther apart.
+  const RecognizedObject* nearest = nullptr;
+  double least_m = kOnePlace_m;
+  if (layer == nullptr) return nearest;
+  for (const RecognizedObject& one : layer->objects) {
+    const double away_m = (one.T_map_object.position_m.head<2>() - place_map_m).norm();
+    if (one.what != what || away_m > least_m) continue;
+    nearest = &one;
+    least_m = away_m;
+  }
+  return nearest;
 }
 
 /// A line through the middle of the opening, along its normal, in the direction of the flight.
@@ -164,6 +180,8 @@ bool FlyThrough::track(const RecognizedObject& opening, const ManeuverInput& inp
 
 Progress FlyThrough::fly(const ManeuverInput& input) {
   const RecognizedObject* opening = withId(input.objects.get(), intent_.object_id);
+  // Two tracks of one window are merged, and only one of their numbers is left.
+  if (opening == nullptr && width_m_ > 0.0) opening = inPlace(input.objects.get(), intent_.what, axis_.middle_map_m);
   if (opening == nullptr && width_m_ == 0.0)
     return Progress::failed(fmt::format("no {} {} is known", intent_.what, intent_.object_id));
   const bool first = width_m_ == 0.0;
@@ -259,10 +277,9 @@ Progress FlyThrough::begin(const ManeuverInput& input) {
   if (isKeptOut(input)) return Progress::failed("a keep-out zone is in the way");
   phase_ = Phase::kPasses;
   got_on_.reset();
-  setup_.memory.log.info(
-      input.now, kFlightSource, fmt::format("flying through {} {}", intent_.what, intent_.object_id),
-      fmt::format("{:.2f} m wide, its middle at {} and {:.2f} m", width_m_, input.names.of(axis_.middle_map_m),
-                  height_m_));
+  setup_.memory.log.info(input.now, kFlightSource, fmt::format("flying through {} {}", intent_.what, intent_.object_id),
+                         fmt::format("{:.2f} m wide, its middle at {} and {:.2f} m", width_m_,
+                                     input.names.of(axis_.middle_map_m), height_m_));
   lay(-before_m_, behind_m_);
   return Progress::running("flying through");
 }
@@ -324,8 +341,8 @@ Progress FlyThrough::turnBack(const ManeuverInput& input, std::string why) {
   phase_ = Phase::kReturns;
   why_back_ = std::move(why);
   got_on_.reset();
-  setup_.memory.log.warn(input.now, kFlightSource, fmt::format("turning back before {} {}", intent_.what, intent_.object_id),
-                         why_back_);
+  setup_.memory.log.warn(input.now, kFlightSource,
+                         fmt::format("turning back before {} {}", intent_.what, intent_.object_id), why_back_);
   setup_.controller.hold();
   return Progress::running("turning back: " + why_back_);
 }

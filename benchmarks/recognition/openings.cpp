@@ -12,6 +12,8 @@
 
 #include <Eigen/LU>
 
+#include <fmt/core.h>
+
 #include "common/quantile.hpp"
 #include "perception/recognition/object_tracker.hpp"
 #include "perception/recognition/opening_recognizer.hpp"
@@ -207,16 +209,21 @@ struct TrackCounts {
 };
 
 /// Looks at one item of the room from several places, and judges what is confirmed as open.
-void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& counts) {
+void follow(const HouseScene& scene, const simulation::RayCaster& rays, bool verbose, TrackCounts& counts) {
   perception::OpeningRecognizer recognizer({});
   perception::ObjectTracker tracker;
   const common::KeyPoses keys{1, {{}}};
   std::vector<int> due(scene.items.size(), 0);
+  std::vector<std::string> said(scene.items.size());
   for (const HouseScene& one : perception::looksAround(scene, rays)) {
     const perception::HouseView view = perception::look(one, rays);
-    tracker.add(recognizer.recognize(
-                    {nullptr, &view.scan, &view.frame, one.R_level_camera, one.T_camera_laser(), &view.behind_m}),
-                {0, one.T_house_camera(), 0.0, 0.0, {}, keys});
+    const std::vector<Recognized> recognized = recognizer.recognize(
+        {nullptr, &view.scan, &view.frame, one.R_level_camera, one.T_camera_laser(), &view.behind_m});
+    for (const Recognized& each : recognized)
+      if (const PlacedItem* item = itemAt(scene, one.T_house_camera() * each.T_sensor_object.position_m))
+        said[static_cast<std::size_t>(item - scene.items.data())] +=
+            fmt::format(" {} {} {:.2f};", each.what, toString(each.passage), each.confidence);
+    tracker.add(recognized, {0, one.T_house_camera(), 0.0, 0.0, {}, keys});
     for (std::size_t i = 0; i < scene.items.size(); ++i) {
       const ItemInView seen = perception::inView(one, scene.items[i], rays);
       if (scene.items[i].isOpen() && seen.whole && seen.size_px >= kCovered_px) ++due[i];
@@ -234,6 +241,9 @@ void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& co
     } else {
       ++counts.wrong;
       ++counts.wrong_of[item ? nameOf(item->kind) : "elsewhere"];
+      if (verbose)
+        std::printf("room %d: false on %s:%s\n", static_cast<int>(scene.index), item ? nameOf(item->kind) : "nothing",
+                    item ? said[static_cast<std::size_t>(item - scene.items.data())].c_str() : "");
     }
   }
   // Three looks confirm.
@@ -241,6 +251,10 @@ void follow(HouseScene scene, const simulation::RayCaster& rays, TrackCounts& co
     if (due[i] < 3) continue;
     ++counts.due;
     if (found[i]) ++counts.found;
+    if (!found[i] && verbose)
+      std::printf("room %d: missed %s %.2f x %.2f:%s\n", static_cast<int>(scene.index), nameOf(scene.items[i].kind),
+                  scene.items[i].left_m - scene.items[i].right_m, scene.items[i].top_m - scene.items[i].bottom_m,
+                  said[i].c_str());
   }
 }
 
@@ -251,7 +265,7 @@ void followOpenings(const OpeningRun& run) {
   for (std::uint64_t i = run.first; i < run.first + run.rooms; ++i) {
     const HouseScene scene = perception::drawHouse(run.houses, run.seed, i);
     const simulation::RayCaster rays(scene.world);
-    follow(scene, rays, counts);
+    follow(scene, rays, run.verbose, counts);
   }
   std::printf("\n| tracked | |\n| --- | --- |\n");
   std::printf("| precision, %% | %s |\n", percent(counts.right, counts.right + counts.wrong).c_str());

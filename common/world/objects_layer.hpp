@@ -24,8 +24,8 @@ struct RecognizedObject {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Of the place, along the axes of the map.
   double yaw_sigma_rad = 0.0;                               ///< Of the normal's or the pattern's heading.
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();         ///< Width and height, the greatest that was seen.
-  Passage passage = Passage::kNone;                         ///< kNone until it is confirmed, of mirrors and of patterns.
-  int looks = 0;                                            ///< Looks from places that differ.
+  Passage passage = Passage::kNone;  ///< kNone until it is confirmed, of mirrors and of patterns.
+  int looks = 0;                     ///< Looks from places that differ.
   Time last_seen;
   bool confirmed = false;  ///< Seen from so many places that it is what `what` and `passage` say.
 

@@ -267,8 +267,7 @@ std::string flightReport(const FlightSummary& summary, const std::vector<common:
                          const ReportPictures& pictures, const std::string& config_yaml) {
   const std::string body = summarySection(summary) + mapSection(pictures.map_svg) +
                            html::map3dSection(pictures.map3d_jpeg) + targetsSection(summary.targets) +
-                           objectsSection(summary.objects) +
-                           photosSection("What was recognized", pictures.objects) +
+                           objectsSection(summary.objects) + photosSection("What was recognized", pictures.objects) +
                            photosSection("Photographs", pictures.photos) + phasesSection(summary.phases) +
                            plotsSection(pictures.plots_svg) + figuresSection(summary.figures) +
                            frontiersSection(summary) + eventsSection(events) + settingsSection(config_yaml);

@@ -57,7 +57,7 @@ std::vector<Problem> KnownObjectConfig::validate() const {
         .problems();
   validation.require(!isOpeningName(name), "name",
                      Message("recognition.name-taken", "`{}` is what an opening is called", name),
-                     std::string("name the pattern otherwise, or `") + kOpenings + "` to look for windows and doors");
+                     "name the pattern otherwise, or `openings` to look for windows and doors");
   validation.require(picture.empty() != (tag < 0), "picture",
                      Message("recognition.no-look", "`{}` needs either a picture or a tag", name));
   return validation.given(width_m > 0.0, "width_m").problems();

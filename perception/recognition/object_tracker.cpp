@@ -26,8 +26,8 @@ constexpr int kPatternConfirmedBy = 2;
 constexpr double kGateSigma = 4.0, kOnePlace_m = 0.3;
 /// The place of an opening of which a side is not seen is known to half a metre: farther apart are two.
 constexpr double kFarthest_m = 1.0;
-/// Attitude is off by half a degree in every look; mount and inverse depth are off alike in all of them, as for coloured
-/// targets.
+/// Attitude is off by half a degree in every look; mount and inverse depth are off alike in all of them, as for
+/// coloured targets.
 constexpr double kAttitudeSigma_rad = 0.5 * common::kRadPerDeg, kMountSigma_rad = 0.6 * common::kRadPerDeg;
 constexpr double kInverseDepthSigma_1_m = 0.001;
 /// Standard deviations of the vehicle's place in its map, and of the time of a picture, which matters in turns.
@@ -84,19 +84,15 @@ ObjectTracker::Measured ObjectTracker::measured(const Recognized& one, const Obj
   const Eigen::Matrix3d R = T_key_camera.rotation.toRotationMatrix();
   const Eigen::Vector3d& p = one.T_sensor_object.position_m;
   const Eigen::Matrix3d turning = common::skew(p);
-  const double angle_rad2 =
-      common::square(kAttitudeSigma_rad) + common::square(view.turn_rate_rad_s * kTimeSigma_s);
+  const double angle_rad2 = common::square(kAttitudeSigma_rad) + common::square(view.turn_rate_rad_s * kTimeSigma_s);
   Measured m;
   m.place.point_m = T_key_camera * p;
   m.place.by_shared.leftCols<3>() = -R * turning;
   m.place.by_shared.col(3) =
       isOpeningName(one.what) ? Eigen::Vector3d(R * (-p.x() * p)) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  m.place.covariance_m2 = R *
-                              (one.covariance.bottomRightCorner<3, 3>() +
-                               angle_rad2 * turning * turning.transpose()) *
-                              R.transpose() +
-                          (common::square(kPlaceSigma_m) + common::square(view.position_sigma_m)) *
-                              Eigen::Matrix3d::Identity();
+  m.place.covariance_m2 =
+      R * (one.covariance.bottomRightCorner<3, 3>() + angle_rad2 * turning * turning.transpose()) * R.transpose() +
+      (common::square(kPlaceSigma_m) + common::square(view.position_sigma_m)) * Eigen::Matrix3d::Identity();
   m.rotation = (T_key_camera.rotation * one.T_sensor_object.rotation).normalized();
   const Eigen::Matrix3d turned = R * one.covariance.topLeftCorner<3, 3>() * R.transpose();
   m.heading_variance_rad2 = std::max(0.0, turned(2, 2)) + angle_rad2;

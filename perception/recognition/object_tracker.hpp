@@ -60,7 +60,7 @@ class ObjectTracker {
     double heading_variance_rad2 = 0.0;
     std::vector<Eigen::Vector3d> from_key_m;
     Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
-    Evidence evidence;
+    Evidence evidence = {};
     int looks = 0;
     common::Time last_seen;
   };

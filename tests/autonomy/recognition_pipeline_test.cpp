@@ -112,8 +112,8 @@ TEST_F(RecognitionStory, ItMovesWithTheKeyScans) {
   look({}, 1.0);
   common::KeyPoses moved = *keys_;
   moved.keys[0].T_map_key = {0.0, 1.0, 0.0};
-  const Eigen::Vector3d by_m = pipeline_.layer(moved)->objects.at(0).T_map_object.position_m -
-                               objects().at(0).T_map_object.position_m;
+  const Eigen::Vector3d by_m =
+      pipeline_.layer(moved)->objects.at(0).T_map_object.position_m - objects().at(0).T_map_object.position_m;
   EXPECT_LT((by_m - Eigen::Vector3d(0.0, 1.0, 0.0)).norm(), 1e-9);
 }
 

@@ -28,7 +28,8 @@ const std::string kOpen = "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\"><
 const std::string kClose = "</BehaviorTree></root>";
 
 Mission missionOf(const std::string& inside) {
-  return Mission::fromText(kOpen + "<Sequence><TakeOff/>" + inside + "<Land/></Sequence>" + kClose, "m.xml", withPlaces());
+  return Mission::fromText(kOpen + "<Sequence><TakeOff/>" + inside + "<Land/></Sequence>" + kClose, "m.xml",
+                           withPlaces());
 }
 
 TEST(PlaceEntries, AMissionFliesToAPlaceByItsName) {

@@ -17,7 +17,8 @@ Recognized seen(const std::string& what, const Eigen::Vector3d& at_camera_m, Pas
   Recognized one;
   one.what = what;
   // x of an opening points to the camera.
-  one.T_sensor_object = {Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())), at_camera_m};
+  one.T_sensor_object = {Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())),
+                         at_camera_m};
   one.covariance.setIdentity();
   one.covariance *= 0.0004;
   one.confidence = confidence;
@@ -100,9 +101,10 @@ TEST(ObjectTracker, AShutterThatIsSeenClosedMoreOftenIsClosed) {
 TEST(ObjectTracker, TwoWindowsBesideEachOtherAndTwoPatternsOfOneNameStayApart) {
   Looks looks;
   for (const double y : {0.0, 0.3, 0.6})
-    looks.add({window(3.0, 0.7 - y, Passage::kOpen), window(3.0, -0.7 - y, Passage::kOpen),
-               seen("pad", {2.0, 1.0 - y, -0.5}), seen("pad", {2.0, -1.0 - y, -0.5}), seen("other", {2.0, 1.0 - y, -0.5})},
-              aside(y));
+    looks.add(
+        {window(3.0, 0.7 - y, Passage::kOpen), window(3.0, -0.7 - y, Passage::kOpen), seen("pad", {2.0, 1.0 - y, -0.5}),
+         seen("pad", {2.0, -1.0 - y, -0.5}), seen("other", {2.0, 1.0 - y, -0.5})},
+        aside(y));
   const auto objects = looks.objects();
   ASSERT_EQ(objects.size(), 5U);
   for (const RecognizedObject& object : objects) EXPECT_TRUE(object.confirmed) << object.what;
