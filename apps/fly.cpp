@@ -216,7 +216,7 @@ nlohmann::json endJson(const simulated_flight::FlightResult& result) {
 }
 
 /// "window 1 open at (2.00, 0.10, 1.30), red 1 at ...": what was found and recognized; empty without any.
-std::string foundText(const interfaces::FlightSummary& summary) {
+std::string recognizedText(const interfaces::FlightSummary& summary) {
   std::vector<std::string> found;
   const auto at = [](const Eigen::Vector3d& p) {
     return fmt::format(" at ({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z());
@@ -239,7 +239,7 @@ void printEnd(const flight::VehicleResult& vehicle) {
                    summary.reason.empty() ? "" : " (" + summary.reason + ")", summary.mission_time.seconds(),
                    summary.distance_m, explored_m2 ? fmt::format(", {:.1f} m2 explored", *explored_m2) : "",
                    summary.realtime_factor.value_or(0.0)));
-  if (const std::string found = foundText(summary); !found.empty()) show("found   " + found + "\n");
+  if (const std::string found = recognizedText(summary); !found.empty()) show("found   " + found + "\n");
   show(fmt::format("run     {}\nreport  {}\n", vehicle.folder.string(), (vehicle.folder / "report.html").string()));
 }
 
@@ -248,7 +248,7 @@ void printEnd(const simulated_flight::FlightResult& result, bool json) {
   for (const flight::VehicleResult& vehicle : result.vehicles) printEnd(vehicle);
 }
 
-std::shared_ptr<const common::TopologicalMap> placesOf(const FlyOptions& options) {
+std::shared_ptr<const common::TopologicalMap> givenPlacesOf(const FlyOptions& options) {
   if (options.places.empty()) return nullptr;
   auto places = std::make_shared<const common::TopologicalMap>(
       common::readTopologicalMap(common::findData(options.places).string()));
@@ -285,7 +285,7 @@ std::unique_ptr<flight::WebLink> servePage(const FlyOptions& options, const simu
 
 int fly(const FlyOptions& options) {
   simulated_flight::SimulatedSetup setup = setupOf(options);
-  setup.places = placesOf(options);
+  setup.places = givenPlacesOf(options);
   std::vector<flight::FlightMission> missions = simulated_flight::soundMissions(setup, !options.map.empty());
   showWarnings(missions, setup, options.headless);
   if (!options.map.empty()) {

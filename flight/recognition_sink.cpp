@@ -49,8 +49,8 @@ double size_px(const common::PinholeCamera& camera, const std::array<Eigen::Vect
   return share * std::sqrt(0.5 * std::abs(twice_px2));
 }
 
-common::Image drawn(const common::RgbdFrame& frame, const std::array<Eigen::Vector3d, 4>& corners,
-                    const std::string& label) {
+common::Image withOutline(const common::RgbdFrame& frame, const std::array<Eigen::Vector3d, 4>& corners,
+                          const std::string& label) {
   constexpr rendering::Color kOutlineColor = rendering::rgb(0xffd43b), kHalo = rendering::rgb(0x202020);
   rendering::Canvas canvas(frame.color);
   std::array<Eigen::Vector2d, 5> outline;
@@ -84,7 +84,7 @@ void RecognitionSink::writeNow(const common::World& world) {
       const auto look = best_.find(object.id);
       if (!object.confirmed || look == best_.end() || !look->second.frame) continue;
       const common::Image picture =
-          drawn(*look->second.frame, corners(object, look->second.T_camera_object), labelOf(object));
+          withOutline(*look->second.frame, corners(object, look->second.T_camera_object), labelOf(object));
       folder_.saveObjectPicture(object,
                                 common::JpegEncoder(common::ImageContent::kPhoto).encode(picture, kJpegQuality));
     }

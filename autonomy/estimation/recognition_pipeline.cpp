@@ -25,7 +25,7 @@ constexpr double kRecognizeEvery_s = 0.2;
 /// (docs/recognition.md).
 constexpr double kRecognizeLatency_s = 0.15;
 /// A scan that is farther from a frame in time does not show what the frame shows: two scans of a laser at 10 Hz.
-constexpr double kSameTime_s = 0.1;
+constexpr double kScanNear_s = 0.1;
 /// Scans that are kept: as many as a laser at 40 Hz takes in the 400 ms that a late picture needs.
 constexpr std::size_t kScansKept = 16;
 
@@ -77,7 +77,7 @@ Time RecognitionPipeline::middleOf(const common::LaserScan& scan) const {
 std::optional<RecognitionPipeline::PlacedScan> RecognitionPipeline::scanAt(const PlacedFrame& placed, Time time,
                                                                            const Context& context) const {
   std::shared_ptr<const common::LaserScan> nearest;
-  double apart_s = kSameTime_s;
+  double apart_s = kScanNear_s;
   for (const auto& scan : scans_) {
     const double off_s = std::abs((middleOf(*scan) - time).seconds());
     if (off_s > apart_s) continue;
