@@ -1,6 +1,6 @@
-// FindWindow: looks for an open window from where the vehicle stands (Tomic 2012, Fig. 4: the window detector determines
-// the window's position more precisely). SUCCESS when one is confirmed that is wide enough; FAILURE when it was not
-// detected from here, or was seen closed.
+// FindWindow: looks for an open window from where the vehicle stands (Tomic 2012, Fig. 4: the window detector
+// determines the window's position more precisely). SUCCESS when one is confirmed that is wide enough; FAILURE when it
+// was not detected from here, or was seen closed.
 //
 //   look towards the stored place, to both sides of it, then from places beside --confirmed, open--> SUCCESS
 //        ^---------------- next view -----------------/        \--closed, or no view left--> FAILURE
@@ -85,14 +85,9 @@ class FindWindow final : public FlightLeaf {
 
 /// The views in their order. `knows_direction`: there is a place to look at.
 const std::vector<View>& viewsWith(bool knows_direction) {
-  static const std::vector<View> kTowards = {{{0, 0}, 0},
-                                             {{0, 0}, kAside_rad},
-                                             {{0, 0}, -kAside_rad},
-                                             {{0, kBeside_m}, 0},
-                                             {{0, -kBeside_m}, 0},
-                                             {{-kBeside_m, 0}, 0},
-                                             {{0, 2 * kBeside_m}, 0},
-                                             {{0, -2 * kBeside_m}, 0}};
+  static const std::vector<View> kTowards = {
+      {{0, 0}, 0},          {{0, 0}, kAside_rad}, {{0, 0}, -kAside_rad},   {{0, kBeside_m}, 0},
+      {{0, -kBeside_m}, 0}, {{-kBeside_m, 0}, 0}, {{0, 2 * kBeside_m}, 0}, {{0, -2 * kBeside_m}, 0}};
   static const std::vector<View> kAround = [] {
     std::vector<View> views;
     for (const double aside_m : {0.0, kBeside_m, -kBeside_m})

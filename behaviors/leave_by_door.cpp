@@ -66,7 +66,8 @@ tree::NodeManifest LeaveByDoor::manifest() {
   outside.description = "A place outside, where it ends. " + outside.description;
   return {.id = "LeaveByDoor",
           .kind = tree::NodeKind::kAction,
-          .ports = {std::move(door), std::move(outside),
+          .ports = {std::move(door),
+                    std::move(outside),
                     {.name = "within_m",
                      .type = PortType::kDouble,
                      .default_value = "1.5",
@@ -85,7 +86,8 @@ tree::NodeManifest LeaveByDoor::manifest() {
                      .minimum = 0.01,
                      .maximum = 5.0,
                      .description = "Arrived when nearer to the place outside than this."},
-                    clearancePort(), modePort()},
+                    clearancePort(),
+                    modePort()},
           .description = "Leaves a house by its door.",
           .details =
               "Through the nearest open door that is recognized near the stored place; without one to the stored place "
@@ -123,8 +125,8 @@ tl::expected<LeaveByDoor::Ports, std::string> LeaveByDoor::ports(const FlightTic
   if (!mode) return tl::unexpected(mode_.problem());
   const auto places = NamedPlaces::in(*tick.flight.world);
   if (!places) return tl::unexpected(places.error());
-  return Ports{places->inMap_m(*door), places->inMap_m(*outside), *within_m, *width_m,
-               *tolerance_m,           *clearance_m,              *mode};
+  return Ports{
+      places->inMap_m(*door), places->inMap_m(*outside), *within_m, *width_m, *tolerance_m, *clearance_m, *mode};
 }
 
 void LeaveByDoor::begin(Leg leg, const Eigen::Vector2d& goal_map_m, double tolerance_m, double shift_m,
@@ -146,8 +148,7 @@ void LeaveByDoor::chooseDoor(FlightTick& tick, const Ports& ports) {
   for (const common::RecognizedObject* door : objectsNear(world, "door", ports.door_map_m, ports.within_m)) {
     if (!isOpenFor(*door, ports.width_m)) continue;
     const Eigen::Vector2d middle_map_m = door->T_map_object.position_m.head<2>();
-    const Eigen::Vector2d through =
-        directionThrough(*door, world.vehicle->state.T_map_body_planar().position_m());
+    const Eigen::Vector2d through = directionThrough(*door, world.vehicle->state.T_map_body_planar().position_m());
     tell(fmt::format("door {} is open, {:.2f} m wide, at {}", door->id, door->size_m.x(),
                      world.map->names().of(middle_map_m)));
     return begin(Leg::kBehindDoor, middle_map_m + kBehindDoor_m * through, kDoorTolerance_m, kDoorTolerance_m, ports);

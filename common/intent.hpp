@@ -106,7 +106,8 @@ struct FollowIntent {
   FlightMode mode = FlightMode::kFast;
 };
 
-/// Fly through an opening that was recognized, slowly, at the height of its middle, as it is seen from moment to moment.
+/// Fly through an opening that was recognized, slowly, at the height of its middle, as it is seen from moment to
+/// moment.
 struct FlyThroughIntent {
   int object_id = 0;       ///< In the World's layer of objects.
   std::string what = {};   ///< `window`; for texts.

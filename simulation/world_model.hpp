@@ -83,13 +83,14 @@ enum class IncompleteWorld { kRefused, kAllowed };
 /// cylinders, spheres, capsules, ellipsoids, cones, planes, polylines, heightmaps and meshes are triangulated. The
 /// collision geometry of a link is used, or its visual geometry if it has none. A visual with `<transparency>` of 0.5
 /// or more, or with a diffuse alpha of 0.5 or less, is glass, as is the collision geometry that goes with it. A
-/// material's `<swiftlet:texture>` names a Pattern or is `mirror`, and its albedo map or the textures of a mesh are pictures for the
-/// cameras. A picture that is not there is left out, with a warning if a pointer of Git LFS or the like stands for it.
-/// The poses of a `<state>` that Gazebo classic saved replace those of the models. `model://`, `file://` and Fuel URIs
-/// are searched for as UriResolver does. The sun needs no file; the well-known ground plane is replaced by one at z = 0
-/// if it is not found. Throws common::InputError (file:line) if the file cannot be read or is malformed, or, unless it
-/// may be incomplete, if something that it names cannot be found, a collision cannot be built or an element that holds
-/// things is misspelt; otherwise that is a warning. Not thread-safe: libsdformat has global state.
+/// material's `<swiftlet:texture>` names a Pattern or is `mirror`, and its albedo map or the textures of a mesh are
+/// pictures for the cameras. A picture that is not there is left out, with a warning if a pointer of Git LFS or the
+/// like stands for it. The poses of a `<state>` that Gazebo classic saved replace those of the models. `model://`,
+/// `file://` and Fuel URIs are searched for as UriResolver does. The sun needs no file; the well-known ground plane is
+/// replaced by one at z = 0 if it is not found. Throws common::InputError (file:line) if the file cannot be read or is
+/// malformed, or, unless it may be incomplete, if something that it names cannot be found, a collision cannot be built
+/// or an element that holds things is misspelt; otherwise that is a warning. Not thread-safe: libsdformat has global
+/// state.
 WorldModel loadWorld(const std::string& sdf_file, const std::vector<std::string>& model_paths = {},
                      IncompleteWorld incomplete = IncompleteWorld::kRefused);
 

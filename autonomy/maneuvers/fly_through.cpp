@@ -58,8 +58,8 @@ constexpr double kWallThickness_m = 0.35;
 constexpr double kShareOfRoom = 0.5;
 /// Before the wall, from the hull to its plane, where it waits for that.
 constexpr double kWaitsBefore_m = 0.35;
-/// Something stays in the way when it has not got on by kMoved_m within this time.
-constexpr double kStuck_s = 6.0, kMoved_m = 0.10;
+/// Something stays in the way when it has not got on by kGotOn_m within this time.
+constexpr double kStuck_s = 6.0, kGotOn_m = 0.10;
 /// Distances beside the wanted one that will do before and behind the opening, where the wanted one is not free.
 constexpr std::array kOtherDistances = {1.0, 1.25, 0.8};
 /// A middle whose height is known worse than this says less than the present height.
@@ -307,7 +307,7 @@ double FlyThrough::blind_m() const {
 
 bool FlyThrough::isStuck(const ManeuverInput& input) {
   const Eigen::Vector2d here = input.position_map_m();
-  if (!got_on_ || (here - got_on_->from_map_m).norm() > kMoved_m) got_on_ = GotOn{input.now, here};
+  if (!got_on_ || (here - got_on_->from_map_m).norm() > kGotOn_m) got_on_ = GotOn{input.now, here};
   return (input.now - got_on_->at).seconds() > kStuck_s;
 }
 

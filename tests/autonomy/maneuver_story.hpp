@@ -146,7 +146,7 @@ class ManeuverStory : public testing::Test {
   std::shared_ptr<const std::vector<common::Polygon>> keep_out_;
   common::PlaceNames names_;
   std::shared_ptr<const common::Map3dLayer> map3d_;
-  std::string unready_;  ///< Why the sensors cannot carry a flight.
+  std::string unready_;                                  ///< Why the sensors cannot carry a flight.
   std::shared_ptr<const common::ObjectsLayer> objects_;  ///< Null without a recognizer.
   planning::AvoidanceDecision decision_;
   bool anybody_walks_ = false;

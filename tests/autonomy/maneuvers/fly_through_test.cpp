@@ -160,6 +160,7 @@ TEST_F(FlyThroughInFlight, DoesNotBeginWithoutRoomOrSight) {
   EXPECT_EQ(reason(), "it is closed");
   passage_ = common::Passage::kOpen;
   seen_ = false;
+  show(3.0);
   want(through());
   EXPECT_EQ(showToTheEnd(), IntentState::kFailed);
   EXPECT_EQ(reason(), "it is not seen from before it");
