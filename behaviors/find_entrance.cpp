@@ -201,7 +201,8 @@ Status FindEntrance::explore(tree::TickContext& context, const common::ExploreIn
   FlightTick& tick = flightTick(context);
   if (explored_) return fail(context, "no entrance was found");
   emitIntent(tick, intent);
-  if (intentState(tick) == IntentState::kFailed) return fail(context, "no entrance was found: " + tick.flight.status.reason);
+  if (intentState(tick) == IntentState::kFailed)
+    return fail(context, "no entrance was found: " + tick.flight.status.reason);
   explored_ = intentState(tick) == IntentState::kSucceeded;
   return Status::kRunning;
 }
@@ -226,9 +227,8 @@ void FindEntrance::look(FlightTick& tick, const RecognizedObject& door, const co
     if (intentState(tick) == IntentState::kSucceeded) look_->since = tick.flight.now;
     if (intentState(tick) != IntentState::kFailed) return;
   }
-  tick.say(common::Severity::kInfo, "no place is free behind " + door.what + " at " +
-                                        tick.flight.world->map->names().of(middleOf(door)),
-           {});
+  tick.say(common::Severity::kInfo,
+           "no place is free behind " + door.what + " at " + tick.flight.world->map->names().of(middleOf(door)), {});
   tried_.push_back(look_->door_id);
   look_.reset();
   renewIntent();
@@ -243,7 +243,8 @@ Status FindEntrance::enterBy(tree::TickContext& context, const RecognizedObject&
   if (!places) return fail(context, places.error());
   const Eigen::Vector2d inside_map_m = *placeInside(tick, door, depth_m, clearance_m);
   const common::PlaceNames names = tick.flight.world->map->names();
-  tick.say(common::Severity::kInfo, fmt::format("an entrance of {:.2f} m at {}", door.size_m.x(), names.of(middleOf(door))),
+  tick.say(common::Severity::kInfo,
+           fmt::format("an entrance of {:.2f} m at {}", door.size_m.x(), names.of(middleOf(door))),
            "the place inside is " + names.of(inside_map_m));
   const auto pointOf = [&](const Eigen::Vector2d& place_map_m) {
     const Eigen::Vector2d named_m = places->T_map_named().inverse() * place_map_m;

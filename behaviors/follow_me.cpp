@@ -77,9 +77,9 @@ std::vector<tree::PortManifest> personPorts() {
 /// The free place at the distance of `asked` from a person that is nearest to the vehicle, and in sight of that person.
 std::optional<common::GoToIntent> placeBeside(const FlightTick& tick, const Eigen::Vector2d& person_map_m,
                                               const common::FollowIntent& asked) {
-  constexpr int kSidesOfPerson = 36;                   // Every 10 degrees.
-  constexpr double kPersonStands_m = 0.5;         // What the map has there may be the person.
-  constexpr double kBesideTolerance_m = 0.2;      // Within the sway of a person who stands.
+  constexpr int kSidesOfPerson = 36;          // Every 10 degrees.
+  constexpr double kPersonStands_m = 0.5;     // What the map has there may be the person.
+  constexpr double kBesideTolerance_m = 0.2;  // Within the sway of a person who stands.
   const common::World& world = *tick.flight.world;
   const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
   const auto& map = tick.flight.goal_map;
@@ -122,22 +122,25 @@ tree::NodeManifest ReturnToMe::manifest() {
   tree::PortManifest place = placePort("place");
   place.required = false;
   place.description =
-      "Where the person stands, in the map frame or in the given map. Not given: where the person was last followed, or "
+      "Where the person stands, in the map frame or in the given map. Not given: where the person was last followed, "
+      "or "
       "else where the nearest walking person was last seen.";
   ports.push_back(std::move(place));
-  return {.id = "ReturnToMe",
-          .kind = tree::NodeKind::kAction,
-          .ports = std::move(ports),
-          .description = "Flies back to the person who calls it.",
-          .details =
-              "It looks at the person and stays `distance_m` away. Without `place`, a person who is seen on the way is "
-              "flown to wherever that person goes.",
-          .ends =
-              "SUCCESS near that person; FAILURE if no place is given and nobody was followed or seen walking, or nobody "
-              "is seen for `lost_s` from within 6 m, or no place near the person is free"};
+  return {
+      .id = "ReturnToMe",
+      .kind = tree::NodeKind::kAction,
+      .ports = std::move(ports),
+      .description = "Flies back to the person who calls it.",
+      .details =
+          "It looks at the person and stays `distance_m` away. Without `place`, a person who is seen on the way is "
+          "flown to wherever that person goes.",
+      .ends =
+          "SUCCESS near that person; FAILURE if no place is given and nobody was followed or seen walking, or nobody "
+          "is seen for `lost_s` from within 6 m, or no place near the person is free"};
 }
 
-/// A place is returned to as to a goal: who calls from there may be hidden, or stand in the map since before it was made.
+/// A place is returned to as to a goal: who calls from there may be hidden, or stand in the map since before it was
+/// made.
 IntentLeaf::IntentOrProblem ReturnToMe::makeIntent(const FlightTick& tick) {
   IntentOrProblem to_person = PersonLeaf::makeIntent(tick);
   if (!to_person || !place_.given()) return to_person;

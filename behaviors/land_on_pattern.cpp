@@ -1,6 +1,6 @@
-// LandOnPattern: searches for a landing pattern with a camera that looks down, flies over it and lands on it (Tomic 2012,
-// section "Mission"). What is told apart by its name is not landed on. SUCCESS on the pattern; FAILURE in the air when it
-// is not seen, unless the vehicle is to land anyway.
+// LandOnPattern: searches for a landing pattern with a camera that looks down, flies over it and lands on it (Tomic
+// 2012, section "Mission"). What is told apart by its name is not landed on. SUCCESS on the pattern; FAILURE in the air
+// when it is not seen, unless the vehicle is to land anyway.
 //
 //   survey around where it began --confirmed--> stop --> fly over it --> land, on what is below --> SUCCESS
 //       \--- all of it seen ---> FAILURE, or land where it is
@@ -68,45 +68,47 @@ class LandOnPattern final : public FlightLeaf {
   tree::Output place_;
 
   Phase phase_ = Phase::kSearches;
-  int object_id_ = 0;                         ///< 0 while none is chosen.
+  int object_id_ = 0;                          ///< 0 while none is chosen.
   std::optional<Eigen::Vector2d> from_map_m_;  ///< Where it began: the middle of the search.
 };
 
 tree::NodeManifest LandOnPattern::manifest() {
-  return {.id = "LandOnPattern",
-          .kind = tree::NodeKind::kAction,
-          .ports = {{.name = "pattern",
-                     .type = PortType::kString,
-                     .required = true,
-                     .description = "Name of the pattern, as the profile has it."},
-                    {.name = "radius_m",
-                     .type = PortType::kDouble,
-                     .default_value = "2.0",
-                     .minimum = 0.0,
-                     .maximum = 20.0,
-                     .description = "How far around the place where it begins it searches in each direction."},
-                    {.name = "height_m",
-                     .type = PortType::kDouble,
-                     .description = "Height above the take-off floor at which it searches; the pattern should cover 40 "
-                                    "pixels or more from there. Not given: the present height."},
-                    {.name = "elsewhere",
-                     .type = PortType::kBool,
-                     .default_value = "false",
-                     .description = "Land where it is if the pattern is not found."},
-                    clearancePort(),
-                    modePort(),
-                    {.name = "place",
-                     .type = PortType::kPoint,
-                     .direction = tree::Direction::kOutput,
-                     .description = "Middle of the pattern, in the given map in a flight with one."}},
-          .description = "Searches for a landing pattern below and lands on it.",
-          .details =
-              "It flies in lanes until the camera, which must look down, has confirmed the pattern of that name; then over "
-              "it, and down while its place is tracked, to half a metre; from there it lands. Patterns of other names "
-              "are not landed on. An event says how far off the middle it stands.",
-          .ends = "SUCCESS when it stands on the pattern; FAILURE in the air when the pattern is not found or no path leads "
-                  "over it, unless it may land `elsewhere`, and on the ground when it was blown off",
-          .traits = LeafTraits{.vehicle = VehicleUse::kLands}};
+  return {
+      .id = "LandOnPattern",
+      .kind = tree::NodeKind::kAction,
+      .ports = {{.name = "pattern",
+                 .type = PortType::kString,
+                 .required = true,
+                 .description = "Name of the pattern, as the profile has it."},
+                {.name = "radius_m",
+                 .type = PortType::kDouble,
+                 .default_value = "2.0",
+                 .minimum = 0.0,
+                 .maximum = 20.0,
+                 .description = "How far around the place where it begins it searches in each direction."},
+                {.name = "height_m",
+                 .type = PortType::kDouble,
+                 .description = "Height above the take-off floor at which it searches; the pattern should cover 40 "
+                                "pixels or more from there. Not given: the present height."},
+                {.name = "elsewhere",
+                 .type = PortType::kBool,
+                 .default_value = "false",
+                 .description = "Land where it is if the pattern is not found."},
+                clearancePort(),
+                modePort(),
+                {.name = "place",
+                 .type = PortType::kPoint,
+                 .direction = tree::Direction::kOutput,
+                 .description = "Middle of the pattern, in the given map in a flight with one."}},
+      .description = "Searches for a landing pattern below and lands on it.",
+      .details =
+          "It flies in lanes until the camera, which must look down, has confirmed the pattern of that name; then over "
+          "it, and down while its place is tracked, to half a metre; from there it lands. Patterns of other names "
+          "are not landed on. An event says how far off the middle it stands.",
+      .ends =
+          "SUCCESS when it stands on the pattern; FAILURE in the air when the pattern is not found or no path leads "
+          "over it, unless it may land `elsewhere`, and on the ground when it was blown off",
+      .traits = LeafTraits{.vehicle = VehicleUse::kLands}};
 }
 
 LandOnPattern::LandOnPattern(const tree::NodeSetup& setup)
@@ -143,8 +145,8 @@ std::string LandOnPattern::problemOfPorts() const {
 Status LandOnPattern::act(tree::TickContext& context) {
   FlightTick& tick = flightTick(context);
   if (const std::string problem = problemOfPorts(); !problem.empty()) return fail(context, problem);
-  const Ports ports{*pattern_.get(),  *radius_m_.get(),  *clearance_m_.get(),
-                    height_m_.get(),  *elsewhere_.get(), *modeOr(mode_, tick.mode)};
+  const Ports ports{*pattern_.get(), *radius_m_.get(),  *clearance_m_.get(),
+                    height_m_.get(), *elsewhere_.get(), *modeOr(mode_, tick.mode)};
   if (phase_ == Phase::kLandsElsewhere) {
     emitIntent(tick, common::LandIntent{});
     if (intentState(tick) == IntentState::kFailed) return fail(context, tick.flight.status.reason);
@@ -170,8 +172,8 @@ Status LandOnPattern::search(tree::TickContext& context, const Ports& ports) {
   }
   if (!from_map_m_) from_map_m_ = here_map_m;
   common::SurveyIntent survey;
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1),
-                                        Eigen::Vector2d(-1, 1)})
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)})
     survey.area.corners_map_m.push_back(*from_map_m_ + std::max(ports.radius_m, 0.1) * corner);
   survey.height_m = ports.height_m;
   survey.clearance_m = ports.clearance_m;

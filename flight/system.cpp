@@ -225,9 +225,9 @@ void readPatterns(System& system, const ProfilePlaces& places) {
   const common::SourceLocation place = places.of(key + "[0].name");
   const bool patterns = std::any_of(objects.begin(), objects.end(), [](const auto& one) { return one.isPattern(); });
   if (patterns && !system.rgbd_camera)
-    throw common::InputError(place, key,
-                             common::Message("profile.recognition-blind", "no camera sees the patterns that are recognized"),
-                             "name an rgbd_camera, such as xtion, or recognize openings alone");
+    throw common::InputError(
+        place, key, common::Message("profile.recognition-blind", "no camera sees the patterns that are recognized"),
+        "name an rgbd_camera, such as xtion, or recognize openings alone");
   for (std::size_t i = 0; i < objects.size(); ++i) {
     perception::KnownObjectConfig& object = objects[i];
     if (object.picture.empty()) continue;

@@ -82,7 +82,7 @@ class Follow final : public PathManeuver {
   std::shared_ptr<perception::PersonWatch> person_;  ///< Never null after the first watch().
   std::optional<Eigen::Vector2d> target_map_m_;
   std::optional<common::Time> since_;
-  std::optional<double> since_yaw_rad_;  ///< The heading in `map` when it began to wait for a person.
+  std::optional<double> since_yaw_rad_;   ///< The heading in `map` when it began to wait for a person.
   std::optional<common::Time> last_far_;  ///< When it was last too far from the person to see anybody there.
   common::Time asked_;
   bool on_trail_ = false;  ///< The plan leads along the trail.

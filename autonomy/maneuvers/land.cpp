@@ -127,8 +127,7 @@ void Land::begin(const ManeuverInput& input) {
 /// Without a position, or kept off by a retreat or the wind, it lands where it is.
 Progress Land::flyOverPattern(const ManeuverInput& input) {
   const bool may_fly = input.state.horizontal_valid && !setup_.retreat.active();
-  const auto status =
-      may_fly ? pattern_->step(input, setup_.controller) : PatternDescent::Status::kKeptOff;
+  const auto status = may_fly ? pattern_->step(input, setup_.controller) : PatternDescent::Status::kKeptOff;
   if (status == PatternDescent::Status::kFlies)
     return Progress::running(
         fmt::format("landing on `{}`, {:.2f} m off its middle", pattern_->name(), pattern_->off_m(input)));

@@ -1,5 +1,5 @@
-// The descent onto a landing pattern that is seen below (Tomic 2012, section "Mission"): position-based visual servoing,
-// in which the reference follows the tracked place of the pattern at each step.
+// The descent onto a landing pattern that is seen below (Tomic 2012, section "Mission"): position-based visual
+// servoing, in which the reference follows the tracked place of the pattern at each step.
 //
 //   fly over its middle --centred--> descend --low enough--> land
 //            ^-- blown off, or it is seen to be elsewhere --/
@@ -47,7 +47,7 @@ class PatternDescent {
   static constexpr double kFlat_rad = 15.0 * common::kRadPerDeg;  ///< What stands or leans carries no vehicle.
   /// Over the middle: the vehicle sways by a few centimetres in a hover.
   static constexpr double kOverMiddle_m = 0.06, kOverMiddle_m_s = 0.15, kOverMiddle_s = 0.4;
-  static constexpr double kOffMiddle_m = 0.2;   ///< Farther off it first flies back over the middle.
+  static constexpr double kOffMiddle_m = 0.2;     ///< Farther off it first flies back over the middle.
   static constexpr double kCorrection_m = 0.015;  ///< Less is within the noise of the place.
   /// Height of the body over the pattern at which the landing takes over: paths keep that much air below the hull
   /// (SurfaceClearance), by which they may be lifted.
