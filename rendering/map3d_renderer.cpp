@@ -58,6 +58,7 @@ common::Image Map3dRenderer::render(const Picture3d& picture, const Map3dView& v
   Overlay3d overlay(canvas, buffer, eye, view.scheme);
   overlay.drawFloor(extentOf(picture), picture.shown.T_map_shown);
   for (const Line3d& line : picture.lines) overlay.drawLine(line);
+  for (const Eigen::Vector3d& target_map_m : picture.targets_map_m) overlay.drawTarget(target_map_m);
   if (picture.camera && view.viewpoint.kind != Viewpoint3d::Kind::kCamera) overlay.drawCamera(*picture.camera);
   if (picture.vehicle && view.viewpoint.kind != Viewpoint3d::Kind::kCamera) overlay.drawVehicle(*picture.vehicle);
   return canvas.take();

@@ -51,7 +51,8 @@ void drawGoal(Layer& layer, const MapMark& mark) {
   layer.canvas.disc(at, 2.4 * s, layer.theme().goal);
 }
 
-/// A diamond with its name; hollow while it is only a candidate.
+/// A diamond with its name; hollow while it is only a candidate, and with an arrow at it once it is found, as Saeedi et
+/// al. mark it.
 void drawTarget(Layer& layer, const MapMark& mark) {
   const Vector2d at = layer.viewport.toPixel(mark.at_map.position_m());
   const double s = layer.scale;
@@ -61,7 +62,14 @@ void drawTarget(Layer& layer, const MapMark& mark) {
   };
   layer.canvas.polygon(diamond(9.0 * s), layer.theme().free.withAlpha(230));
   layer.canvas.polygon(diamond(7.0 * s), layer.theme().goal);
-  if (mark.style == MarkStyle::kCandidate) layer.canvas.polygon(diamond(4.0 * s), layer.theme().free);
+  if (mark.style == MarkStyle::kCandidate) {
+    layer.canvas.polygon(diamond(4.0 * s), layer.theme().free);
+  } else {
+    const std::array<Vector2d, 3> head{at + Vector2d(-4.5, -17.0) * s, at + Vector2d(4.5, -17.0) * s,
+                                       at + Vector2d(0.0, -10.0) * s};
+    layer.canvas.line(at + Vector2d(0.0, -27.0) * s, at + Vector2d(0.0, -16.0) * s, 2.4 * s, layer.theme().goal);
+    layer.canvas.polygon(head, layer.theme().goal);
+  }
   layer.canvas.text(mark.name, at + Vector2d(11.0, 3.5) * s, 9.0 * s, layer.theme().text, Align::kLeft,
                     layer.theme().free.withAlpha(200));
 }

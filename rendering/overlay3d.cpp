@@ -17,6 +17,7 @@ constexpr double kStep_px = 4.0;
 constexpr double kThickness_m = 0.06;
 constexpr std::uint8_t kHiddenAlpha = 60;
 constexpr double kCameraPyramid_m = 0.5;
+constexpr double kArrow_m = 0.6, kArrowHead_m = 0.15;
 constexpr int kCorners = 24;
 /// More lines than this would be a surface: the grid is then coarser.
 constexpr double kMostFloorLines = 40.0;
@@ -79,6 +80,18 @@ void Overlay3d::drawVehicle(const PlacedVehicle& vehicle) {
   const Vector3d center_map_m = vehicle.T_map_body.position_m;
   const Vector3d below_map_m(center_map_m.x(), center_map_m.y(), 0.0);
   stroke(std::array{center_map_m, below_map_m}, pen(theme_.vehicle, 1.0));
+}
+
+void Overlay3d::drawTarget(const Vector3d& target_map_m) {
+  const auto at = [&](double aside_m, double along_y_m, double above_m) {
+    return Vector3d(target_map_m + Vector3d(aside_m, along_y_m, above_m));
+  };
+  const Vector3d tip = at(0.0, 0.0, 0.0);
+  const double side_m = 0.5 * kArrowHead_m;
+  const Pen arrow = pen(theme_.goal, 2.6);
+  stroke(std::array{at(0.0, 0.0, kArrow_m), tip}, arrow);
+  stroke(std::array{at(-side_m, 0.0, kArrowHead_m), tip, at(side_m, 0.0, kArrowHead_m)}, arrow);
+  stroke(std::array{at(0.0, -side_m, kArrowHead_m), tip, at(0.0, side_m, kArrowHead_m)}, arrow);
 }
 
 void Overlay3d::drawCamera(const PlacedCamera& camera) {

@@ -24,6 +24,8 @@ class Overlay3d {
   void drawLine(const Line3d& line);
   /// The vehicle's hull, its heading, and a line down to the take-off floor.
   void drawVehicle(const PlacedVehicle& vehicle);
+  /// An arrow that points down at it, as Saeedi et al. mark what was found.
+  void drawTarget(const Eigen::Vector3d& target_map_m);
   /// The camera's field of view as a pyramid.
   void drawCamera(const PlacedCamera& camera);
 

@@ -2,6 +2,8 @@
 
 #include "common/world.hpp"
 #include "common/world/map3d_layer.hpp"
+#include "common/world/objects_layer.hpp"
+#include "common/world/targets_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
 namespace swiftlet::rendering {
@@ -21,6 +23,18 @@ void addMap(const common::Map3dLayer& map3d, Picture3d& picture) {
   if (map3d.frame) picture.camera = PlacedCamera{map3d.T_map_camera, map3d.frame->camera};
 }
 
+/// Coloured targets that are found, and patterns that are confirmed; openings are not marked.
+std::vector<Eigen::Vector3d> targetsIn(const common::World& world) {
+  std::vector<Eigen::Vector3d> places_map_m;
+  for (const common::Target& target : world.targets->targets)
+    if (target.state == common::TargetState::kFound) places_map_m.push_back(target.position_map_m);
+  if (!world.objects) return places_map_m;
+  for (const common::RecognizedObject& object : world.objects->objects)
+    if (object.confirmed && object.passage == common::Passage::kNone && object.what != "mirror")
+      places_map_m.push_back(object.T_map_object.position_m);
+  return places_map_m;
+}
+
 }  // namespace
 
 Picture3d picture3dOf(const common::World& world, double hull_diameter_m) {
@@ -30,6 +44,7 @@ Picture3d picture3dOf(const common::World& world, double hull_diameter_m) {
   picture.shown = shownFrame(world);
   if (world.map3d) addMap(*world.map3d, picture);
   picture.vehicle = PlacedVehicle{T_map_body, hull_diameter_m};
+  picture.targets_map_m = targetsIn(world);
 
   Line3d trail = atHeight(vehicle.trail.points_map_m(), 0.0, Line3dStyle::kTrail);
   trail.points_map_m.emplace_back(T_map_body.position_m.x(), T_map_body.position_m.y(), 0.0);

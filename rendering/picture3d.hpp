@@ -57,12 +57,13 @@ struct Picture3d {
   std::vector<Line3d> lines;
   std::optional<PlacedVehicle> vehicle;
   std::optional<PlacedCamera> camera;
-  ShownFrame shown;  ///< The lines on the floor are those of this frame.
+  std::vector<Eigen::Vector3d> targets_map_m;  ///< And patterns, found; an arrow points down at each.
+  ShownFrame shown;                            ///< The lines on the floor are those of this frame.
 };
 
-/// The picture of a World: the submaps of its 3D map, the vehicle, its camera, the trail and the plan. The World has no
-/// heights of the trail, so the trail is drawn on the take-off floor and the plan at the vehicle's height. Without a 3D
-/// map there are no surfaces and no camera.
+/// The picture of a World: the submaps of its 3D map, the vehicle, its camera, the targets, the trail and the plan. The
+/// World has no heights of the trail, so the trail is drawn on the take-off floor and the plan at the vehicle's height.
+/// Without a 3D map there are no surfaces and no camera.
 Picture3d picture3dOf(const common::World& world, double hull_diameter_m);
 
 }  // namespace swiftlet::rendering

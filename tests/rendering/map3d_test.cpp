@@ -8,6 +8,7 @@
 #include "rendering/depth_picture.hpp"
 #include "rendering/map3d_renderer.hpp"
 #include "tests/rendering/example_flight.hpp"
+#include "tests/support/layers.hpp"
 
 namespace swiftlet::rendering {
 namespace {
@@ -245,6 +246,39 @@ TEST(Map3dRendererTest, WhatASurfaceHidesOfALineIsFaint) {
   EXPECT_LT(nearest(480), 250);
   EXPECT_GT(nearest(320), 250);
   EXPECT_NE(pixel(image, 320, 239), kRed);
+}
+
+TEST(Map3dRendererTest, AnArrowPointsDownAtATarget) {
+  Picture3d picture;
+  picture.camera = PlacedCamera{{}, {320, 240, 150.0, 150.0, 159.5, 119.5}};
+  Map3dView view;
+  view.viewpoint.kind = Viewpoint3d::Kind::kCamera;
+  const common::Image without = renderMap3d(picture, view);
+  picture.targets_map_m = {{3.0, 0.0, 0.0}};
+  const common::Image with = renderMap3d(picture, view);
+  int above = 0, below = 0;
+  for (int v = 0; v < with.height_px; ++v)
+    for (int u = 0; u < with.width_px; ++u)
+      if (pixel(with, u, v) != pixel(without, u, v)) ++(v < with.height_px / 2 + 3 ? above : below);
+  EXPECT_GT(above, 40) << "60 cm at 3 m are 60 pixels, drawn twice as large";
+  EXPECT_EQ(below, 0);
+}
+
+TEST(Map3dRendererTest, APictureHasAnArrowForWhatIsFoundAndForAPattern) {
+  test::Layers layers;
+  common::Target found, candidate;
+  found.state = common::TargetState::kFound;
+  found.position_map_m = {1.0, 2.0, 0.3};
+  layers.targets.targets = {candidate, found};
+  common::RecognizedObject pattern, door, unsure;
+  pattern.what = unsure.what = "H";
+  pattern.confirmed = door.confirmed = true;
+  pattern.T_map_object.position_m = {3.0, 0.0, 0.0};
+  door.what = "door";
+  door.passage = common::Passage::kOpen;
+  layers.objects = std::make_shared<const common::ObjectsLayer>(common::ObjectsLayer{{pattern, door, unsure}});
+  const Picture3d picture = picture3dOf(layers.world(), 0.5);
+  EXPECT_EQ(picture.targets_map_m, (std::vector<Vector3d>{{1.0, 2.0, 0.3}, {3.0, 0.0, 0.0}}));
 }
 
 TEST(Map3dRendererTest, AnEmptyMapGivesAPicture) {
