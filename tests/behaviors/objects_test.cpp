@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-common::RecognizedObject seenObject(int id, const std::string& what, double x_m, double y_m, bool confirmed = true) {
+common::RecognizedObject recognizedAt(int id, const std::string& what, double x_m, double y_m, bool confirmed = true) {
   common::RecognizedObject object;
   object.id = id;
   object.what = what;
@@ -28,8 +28,8 @@ common::RecognizedObject seenObject(int id, const std::string& what, double x_m,
 }
 
 /// Its normal points back to where it was seen from.
-common::RecognizedObject openDoor(int id, double x_m, double y_m, double normal_deg) {
-  common::RecognizedObject door = seenObject(id, "door", x_m, y_m);
+common::RecognizedObject openDoorAt(int id, double x_m, double y_m, double normal_deg) {
+  common::RecognizedObject door = recognizedAt(id, "door", x_m, y_m);
   door.T_map_object.position_m.z() = 1.0;
   door.T_map_object.rotation = common::quaternionFrom({0.0, 0.0, normal_deg * common::kRadPerDeg});
   door.size_m = {1.0, 2.0};
@@ -37,26 +37,26 @@ common::RecognizedObject openDoor(int id, double x_m, double y_m, double normal_
   return door;
 }
 
-Flight& shows(Flight& flight, std::vector<common::RecognizedObject> objects) {
+Flight& showsRecognized(Flight& flight, std::vector<common::RecognizedObject> objects) {
   return flight.change([&](test::Layers& layers) {
     layers.objects = std::make_shared<const common::ObjectsLayer>(common::ObjectsLayer{std::move(objects)});
   });
 }
 
 template <typename Intent>
-const Intent& emitted(const Flight& flight) {
+const Intent& emittedKind(const Flight& flight) {
   return std::get<Intent>(flight.context.intent->kind);
 }
 
 TEST(LandOnPattern, SearchesFliesOverItAndLandsOnIt) {
   Flight flight(R"(<LandOnPattern pattern="H" radius_m="1.5" height_m="1.4"/>)");
-  shows(flight.at(-1.0, 0.5), {seenObject(1, "F", -1.0, 0.5)});
+  showsRecognized(flight.at(-1.0, 0.5), {recognizedAt(1, "F", -1.0, 0.5)});
   EXPECT_THAT(flight.tick(), StartsWith("RUNNING 1 survey an area with 4 corners about (-1.00, 0.50)"));
-  EXPECT_EQ(emitted<common::SurveyIntent>(flight).height_m, 1.4);
-  EXPECT_NEAR(emitted<common::SurveyIntent>(flight).area.max_map_m().x(), 0.5, 1e-9);
-  shows(flight.runs(), {seenObject(1, "F", -1.0, 0.5), seenObject(2, "H", 0.2, 0.3, false)});
+  EXPECT_EQ(emittedKind<common::SurveyIntent>(flight).height_m, 1.4);
+  EXPECT_NEAR(emittedKind<common::SurveyIntent>(flight).area.max_map_m().x(), 0.5, 1e-9);
+  showsRecognized(flight.runs(), {recognizedAt(1, "F", -1.0, 0.5), recognizedAt(2, "H", 0.2, 0.3, false)});
   EXPECT_THAT(flight.tick(), HasSubstr("survey")) << "a decoy, and a candidate";
-  shows(flight.runs(), {seenObject(1, "F", -1.0, 0.5), seenObject(2, "H", 0.2, 0.3)});
+  showsRecognized(flight.runs(), {recognizedAt(1, "F", -1.0, 0.5), recognizedAt(2, "H", 0.2, 0.3)});
   EXPECT_EQ(flight.tick(), "RUNNING 2 hold");
   EXPECT_EQ(flight.runs().tick(), "RUNNING 2 hold") << "it still moves";
   EXPECT_EQ(flight.stops().tick(), "RUNNING 3 go to (0.20, 0.30)");
@@ -68,7 +68,7 @@ TEST(LandOnPattern, SearchesFliesOverItAndLandsOnIt) {
 
 TEST(LandOnPattern, BesideThePatternIsNoSuccess) {
   Flight flight(R"(<LandOnPattern pattern="H"/>)");
-  shows(flight.at(0.0, 0.0), {seenObject(2, "H", 0.2, 0.3)});
+  showsRecognized(flight.at(0.0, 0.0), {recognizedAt(2, "H", 0.2, 0.3)});
   flight.tick();
   flight.stops().tick();
   flight.succeeds().tick();
@@ -78,14 +78,14 @@ TEST(LandOnPattern, BesideThePatternIsNoSuccess) {
 
 TEST(LandOnPattern, TakesTheNearestOfItsName) {
   Flight flight(R"(<LandOnPattern pattern="H"/>)");
-  shows(flight.at(0.0, 0.0), {seenObject(1, "H", 2.0, 0.0), seenObject(2, "H", -1.0, 0.0)});
+  showsRecognized(flight.at(0.0, 0.0), {recognizedAt(1, "H", 2.0, 0.0), recognizedAt(2, "H", -1.0, 0.0)});
   flight.tick();
   EXPECT_EQ(flight.stops().tick(), "RUNNING 2 go to (-1.00, 0.00)");
 }
 
 TEST(LandOnPattern, FailsInTheAirWhenItIsNotSeen) {
   Flight flight(R"(<LandOnPattern pattern="H" radius_m="1.5"/>)");
-  shows(flight, {seenObject(1, "F", 1.0, 0.5)});
+  showsRecognized(flight, {recognizedAt(1, "F", 1.0, 0.5)});
   flight.tick();
   EXPECT_EQ(flight.succeeds().tick(), "FAILED");
   EXPECT_EQ(flight.cause(), "LandOnPattern: no `H` was seen within 1.5 m");
@@ -96,7 +96,7 @@ TEST(LandOnPattern, FailsInTheAirWhenItIsNotSeen) {
 
 TEST(LandOnPattern, LandsElsewhereWhereThePortSaysSo) {
   Flight flight(R"(<LandOnPattern pattern="H" elsewhere="true"/>)");
-  shows(flight, {});
+  showsRecognized(flight, {});
   flight.tick();
   EXPECT_EQ(flight.fails("none of its places is free").tick(), "RUNNING 2 land");
   EXPECT_EQ(flight.events().back(), "lands elsewhere than on `H` (no `H` was seen: none of its places is free)");
@@ -106,7 +106,7 @@ TEST(LandOnPattern, LandsElsewhereWhereThePortSaysSo) {
 
 TEST(LandOnPattern, AnInterruptionGoesOnOverThePattern) {
   Flight flight(R"(<Priority><Hold/><LandOnPattern pattern="H"/></Priority>)");
-  shows(flight, {seenObject(2, "H", 0.2, 0.3)});
+  showsRecognized(flight, {recognizedAt(2, "H", 0.2, 0.3)});
   flight.tick();
   flight.stops().tick();
   EXPECT_THAT(flight.succeeds().tick(), HasSubstr("land"));
@@ -130,12 +130,12 @@ TEST(LandOnPattern, IsALandingForTheCheck) {
 TEST(FindEntrance, ExploresUntilADoorIsOpenAndChoosesAPlaceInside) {
   Flight flight(R"(<Sequence><FindEntrance depth_m="2" place="{inside}" door="{door}"/>)"
                 R"(<MoveToGoal goal="{door}"/><MoveToGoal goal="{inside}"/></Sequence>)");
-  common::RecognizedObject window = openDoor(1, -1.0, 0.0, 180.0), shut = openDoor(2, -1.0, 1.0, 180.0);
+  common::RecognizedObject window = openDoorAt(1, -1.0, 0.0, 180.0), shut = openDoorAt(2, -1.0, 1.0, 180.0);
   window.what = "window";
   shut.passage = common::Passage::kClosed;
-  shows(flight.at(-3.0, 0.0), {window, shut});
+  showsRecognized(flight.at(-3.0, 0.0), {window, shut});
   EXPECT_EQ(flight.tick(), "RUNNING 1 explore");
-  shows(flight.runs(), {window, shut, openDoor(3, 0.0, 0.5, 180.0)});
+  showsRecognized(flight.runs(), {window, shut, openDoorAt(3, 0.0, 0.5, 180.0)});
   EXPECT_EQ(flight.tick(), "RUNNING 2 hold");
   EXPECT_EQ(flight.runs().tick(), "RUNNING 2 hold");
   EXPECT_EQ(flight.stops().tick(), "RUNNING 3 go to (0.00, 0.50)");
@@ -146,25 +146,25 @@ TEST(FindEntrance, ExploresUntilADoorIsOpenAndChoosesAPlaceInside) {
 
 TEST(FindEntrance, GoesLessDeepWhereAWallStands) {
   Flight flight(R"(<Sequence><FindEntrance depth_m="4" place="{inside}"/><MoveToGoal goal="{inside}"/></Sequence>)");
-  shows(flight.at(-3.0, 0.0), {openDoor(3, 1.0, 0.0, 180.0)});
+  showsRecognized(flight.at(-3.0, 0.0), {openDoorAt(3, 1.0, 0.0, 180.0)});
   flight.tick();
   flight.stops().tick();
   flight.tick();
-  EXPECT_LT((emitted<common::GoToIntent>(flight).goal_map_m - Eigen::Vector2d(3.4, 0.0)).norm(), 1e-9)
+  EXPECT_LT((emittedKind<common::GoToIntent>(flight).goal_map_m - Eigen::Vector2d(3.4, 0.0)).norm(), 1e-9)
       << "the hull with its clearance fits no nearer to x = 4 m";
 }
 
 TEST(FindEntrance, IsOutsideOfWhatItLeaves) {
   Flight flight("<FindEntrance/>");
-  shows(flight.at(2.0, 0.0), {openDoor(3, 0.0, 0.0, 180.0)});
+  showsRecognized(flight.at(2.0, 0.0), {openDoorAt(3, 0.0, 0.0, 180.0)});
   EXPECT_EQ(flight.tick(), "RUNNING 1 explore") << "the vehicle is behind the door that it saw from before it";
 }
 
 TEST(FindEntrance, LooksInFromBeforeADoorBehindWhichNothingIsSeen) {
   Flight flight(R"(<FindEntrance/>)");
-  shows(flight.at(0.0, 0.0), {openDoor(3, 3.2, 0.0, 180.0)});
+  showsRecognized(flight.at(0.0, 0.0), {openDoorAt(3, 3.2, 0.0, 180.0)});
   EXPECT_EQ(flight.tick(), "RUNNING 1 go to (2.00, 0.00)") << "the wall is too near behind it";
-  EXPECT_NEAR(*emitted<common::GoToIntent>(flight).yaw_map_rad, 0.0, 1e-9);
+  EXPECT_NEAR(*emittedKind<common::GoToIntent>(flight).yaw_map_rad, 0.0, 1e-9);
   flight.succeeds().tick();
   for (int i = 0; i < 14; ++i) EXPECT_THAT(flight.stops().tick(), HasSubstr("hold"));
   for (int i = 0; i < 4; ++i) flight.stops().tick();
@@ -179,7 +179,7 @@ TEST(FindEntrance, FailsWithoutARecognizerAndAsExploringFails) {
   EXPECT_EQ(blind.tick(), "FAILED");
   EXPECT_EQ(blind.cause(), "FindEntrance: the profile recognizes no openings");
   Flight flight("<FindEntrance/>");
-  shows(flight, {});
+  showsRecognized(flight, {});
   flight.tick();
   EXPECT_EQ(flight.fails("incomplete").tick(), "FAILED");
   EXPECT_EQ(flight.cause(), "FindEntrance: no entrance was found: incomplete");

@@ -27,7 +27,7 @@ common::LaserScan wallWithADoor() {
   return scan;
 }
 
-KnownObjects openings() {
+KnownObjects onlyOpenings() {
   KnownObjectConfig config;
   config.name = kOpenings;
   return *KnownObjects::create({config}, OpeningConfig{});
@@ -38,7 +38,7 @@ TEST(ScanOpenings, AnOpeningIsInTheAxesOfTheCamera) {
   Observation observation;
   observation.scan = &scan;
   observation.T_camera_laser = {common::quaternionFrom({0.0, 0.0, 0.5 * std::numbers::pi}), {0.1, 0.0, 0.2}};
-  const auto found = openings().recognize(observation);
+  const auto found = onlyOpenings().recognize(observation);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].what, "opening");
   EXPECT_EQ(found[0].passage, Passage::kOpen);
@@ -54,7 +54,7 @@ TEST(ScanOpenings, ATiltedScanIsLeftOut) {
   Observation observation;
   observation.scan = &scan;
   observation.R_level_camera = common::quaternionFrom({0.0, 0.15, 0.0});
-  EXPECT_TRUE(openings().recognize(observation).empty());
+  EXPECT_TRUE(onlyOpenings().recognize(observation).empty());
 }
 
 }  // namespace
