@@ -39,7 +39,7 @@ simulation::Shape shutter() {
   return shape;
 }
 
-const Eigen::Vector2d kWindow(2.0, 0.0), kMirror(2.0, 1.5);
+const Eigen::Vector2d kWindowPlace(2.0, 0.0), kMirrorPlace(2.0, 1.5);
 
 /// What is tracked after the eight views of FindWindow from that place, towards the window, and then towards the
 /// mirror.
@@ -55,7 +55,7 @@ std::vector<common::RecognizedObject> seenFrom(const simulation::WorldModel& wor
   scene.seed = seed;
   constexpr std::array<std::array<double, 3>, 8> kViews = {
       {{0, 0, 0}, {0, 0, 29}, {0, 0, -29}, {0, 0.35, 0}, {0, -0.35, 0}, {-0.35, 0, 0}, {0, 0.7, 0}, {0, -0.7, 0}}};
-  for (const Eigen::Vector2d& target : {kWindow, kMirror})
+  for (const Eigen::Vector2d& target : {kWindowPlace, kMirrorPlace})
     for (const auto& [ahead_m, left_m, turn_deg] : kViews) {
       const Eigen::Vector2d at = place + Eigen::Vector2d(ahead_m, left_m);
       const double yaw_rad = std::atan2((target - at).y(), (target - at).x()) + turn_deg * kRadPerDeg;
@@ -95,12 +95,12 @@ TEST(HouseToLeave, ItsWindowIsOpenOrClosedAndItsMirrorIsNone) {
   int found_closed = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto objects = seenFrom(open, places[i], i + 1);
-    EXPECT_EQ(countAt(objects, "window", Passage::kOpen, kWindow), 1) << i;
-    EXPECT_EQ(countAt(objects, "window", Passage::kOpen, kMirror), 0) << i;
-    EXPECT_EQ(countAt(objects, "mirror", Passage::kNone, kMirror), 1) << i;
+    EXPECT_EQ(countAt(objects, "window", Passage::kOpen, kWindowPlace), 1) << i;
+    EXPECT_EQ(countAt(objects, "window", Passage::kOpen, kMirrorPlace), 0) << i;
+    EXPECT_EQ(countAt(objects, "mirror", Passage::kNone, kMirrorPlace), 1) << i;
     const auto behind_shutter = seenFrom(closed, places[i], i + 1);
-    EXPECT_EQ(countAt(behind_shutter, "window", Passage::kOpen, kWindow), 0) << i;
-    found_closed += countAt(behind_shutter, "window", Passage::kClosed, kWindow);
+    EXPECT_EQ(countAt(behind_shutter, "window", Passage::kOpen, kWindowPlace), 0) << i;
+    found_closed += countAt(behind_shutter, "window", Passage::kClosed, kWindowPlace);
   }
   EXPECT_GE(found_closed, 1) << "the others are not detected, and looked for from elsewhere";
 }
