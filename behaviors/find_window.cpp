@@ -43,10 +43,10 @@ constexpr double kWindowViewTolerance_m = 0.1;
 /// To both sides of a place that is off by half a metre and 10 deg, seen from 2 m; half of a camera's angle of view.
 constexpr double kAside_rad = 29.0 * common::kRadPerDeg;
 /// A full turn, by a little less than a camera's angle of view.
-constexpr int kTurns = 8;
+constexpr int kLooksAround = 8;
 
 /// A place beside the one where it stands, along and across the direction to the window, and the turn from it.
-struct View {
+struct WindowView {
   Eigen::Vector2d offset_m = Eigen::Vector2d::Zero();
   double turn_rad = 0.0;
 };
@@ -84,14 +84,14 @@ class FindWindow final : public FlightLeaf {
 };
 
 /// The views in their order. `knows_direction`: there is a place to look at.
-const std::vector<View>& viewsWith(bool knows_direction) {
-  static const std::vector<View> kTowards = {
+const std::vector<WindowView>& viewsWith(bool knows_direction) {
+  static const std::vector<WindowView> kTowards = {
       {{0, 0}, 0},          {{0, 0}, kAside_rad}, {{0, 0}, -kAside_rad},   {{0, kBeside_m}, 0},
       {{0, -kBeside_m}, 0}, {{-kBeside_m, 0}, 0}, {{0, 2 * kBeside_m}, 0}, {{0, -2 * kBeside_m}, 0}};
-  static const std::vector<View> kAround = [] {
-    std::vector<View> views;
+  static const std::vector<WindowView> kAround = [] {
+    std::vector<WindowView> views;
     for (const double aside_m : {0.0, kBeside_m, -kBeside_m})
-      for (int i = 0; i < kTurns; ++i) views.push_back({{0, aside_m}, 2.0 * std::numbers::pi * i / kTurns});
+      for (int i = 0; i < kLooksAround; ++i) views.push_back({{0, aside_m}, 2.0 * std::numbers::pi * i / kLooksAround});
     return views;
   }();
   return knows_direction ? kTowards : kAround;
@@ -234,9 +234,9 @@ std::optional<common::GoToIntent> FindWindow::nextView(const FlightTick& tick, c
   const std::optional<Eigen::Vector2d> at_map_m =
       candidate != nullptr ? std::optional<Eigen::Vector2d>(candidate->T_map_object.position_m.head<2>())
                            : wanted.near_map_m;
-  const std::vector<View>& views = viewsWith(wanted.near_map_m.has_value());
+  const std::vector<WindowView>& views = viewsWith(wanted.near_map_m.has_value());
   while (views_ < views.size()) {
-    const View& view = views[views_++];
+    const WindowView& view = views[views_++];
     if (candidate != nullptr && view.turn_rad != 0.0 && view.offset_m.isZero()) continue;
     const auto bearing = [&](const Eigen::Vector2d& from) {
       return at_map_m ? std::atan2((*at_map_m - from).y(), (*at_map_m - from).x()) : T_map_start_->yaw_rad;

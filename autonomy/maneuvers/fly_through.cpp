@@ -65,7 +65,7 @@ constexpr std::array kOtherDistances = {1.0, 1.25, 0.8};
 /// A middle whose height is known worse than this says less than the present height.
 constexpr double kHeightSigma_m = 0.15;
 /// Far enough for a point to be faced from everywhere on the axis with one heading.
-constexpr double kFar_m = 100.0;
+constexpr double kFarAhead_m = 100.0;
 /// The opening is seen whole, with this much of the wall at its sides.
 constexpr double kWallBeside_m = 0.15;
 
@@ -188,7 +188,7 @@ Progress FlyThrough::fly(const ManeuverInput& input) {
   const bool moved = opening != nullptr && track(*opening, input);
   if (first && isInside(input)) phase_ = Phase::kPasses;
   setup_.memory.cruise_height_m = height_m_;
-  setup_.controller.lookAt(axis_.at(kFar_m));
+  setup_.controller.lookAt(axis_.at(kFarAhead_m));
   switch (phase_) {
     case Phase::kApproaches:
       return approach(input);

@@ -81,9 +81,9 @@ class HouseFlight {
   std::vector<common::RecognizedObject> objects_;
 };
 
-constexpr auto kOpen = common::Passage::kOpen;
-constexpr auto kClosed = common::Passage::kClosed;
-constexpr auto kUnknown = common::Passage::kNone;
+constexpr auto kIsOpen = common::Passage::kOpen;
+constexpr auto kIsClosed = common::Passage::kClosed;
+constexpr auto kIsUnknown = common::Passage::kNone;
 
 TEST(FindWindow, NeedsARecognizer) {
   Flight flight(R"(<FindWindow near="4;0"/>)");
@@ -93,8 +93,8 @@ TEST(FindWindow, NeedsARecognizer) {
 
 TEST(FindWindow, EndsWithTheOneThatIsOpenNearTheStoredPlace) {
   HouseFlight house(R"(<Sequence><FindWindow near="4;0.4" window="{w}"/><FlyThroughWindow window="{w}"/></Sequence>)");
-  house.sees({openingAt(1, "window", 3.5, kOpen), openingAt(2, "mirror", 0.3, kUnknown),
-              openingAt(3, "window", 0.0, kOpen), openingAt(4, "door", 0.5, kOpen)});
+  house.sees({openingAt(1, "window", 3.5, kIsOpen), openingAt(2, "mirror", 0.3, kIsUnknown),
+              openingAt(3, "window", 0.0, kIsOpen), openingAt(4, "door", 0.5, kIsOpen)});
   EXPECT_EQ(house.tick(), "RUNNING 1 hold");
   EXPECT_EQ(house.tick(), "RUNNING 1 hold") << "it still moves";
   house.flight.stops();
@@ -108,7 +108,7 @@ TEST(FindWindow, EndsWithTheOneThatIsOpenNearTheStoredPlace) {
 
 TEST(FindWindow, LooksTowardsTheStoredPlaceToBothSidesAndFromBeside) {
   HouseFlight house(R"(<FindWindow near="4;0"/>)");
-  house.sees({openingAt(2, "mirror", 0.3, kUnknown)});
+  house.sees({openingAt(2, "mirror", 0.3, kIsUnknown)});
   const auto views = house.flyViews();
   EXPECT_EQ(house.flight.cause(), "FindWindow: no open window was detected from here: 1 mirror");
   ASSERT_EQ(views.size(), 8U);
@@ -125,7 +125,7 @@ TEST(FindWindow, LooksTowardsTheStoredPlaceToBothSidesAndFromBeside) {
 
 TEST(FindWindow, LooksAtACandidateFromOtherPlacesUntilItIsConfirmed) {
   HouseFlight house(R"(<FindWindow near="4;0"/>)");
-  house.sees({openingAt(5, "window", 0.6, kUnknown)});
+  house.sees({openingAt(5, "window", 0.6, kIsUnknown)});
   house.tick();
   house.flight.succeeds();
   for (int i = 0; i < 30 && (house.goTo() == nullptr || house.goTo()->goal_map_m.y() == 0.0); ++i) {
@@ -136,18 +136,18 @@ TEST(FindWindow, LooksAtACandidateFromOtherPlacesUntilItIsConfirmed) {
   EXPECT_GT((house.goTo()->goal_map_m - Eigen::Vector2d(2.0, 0.0)).norm(), 0.3) << "no turn on the spot";
   const Eigen::Vector2d to = Eigen::Vector2d(4.0, 0.6) - house.goTo()->goal_map_m;
   EXPECT_NEAR(*house.goTo()->yaw_map_rad, std::atan2(to.y(), to.x()), 1e-9);
-  house.sees({openingAt(5, "window", 0.6, kOpen)}).tick();
+  house.sees({openingAt(5, "window", 0.6, kIsOpen)}).tick();
   house.flight.stops();
   EXPECT_EQ(house.tick(), "DONE");
 }
 
 TEST(FindWindow, AClosedOneIsNoWindowToLookForAndANarrowOneIsNone) {
   HouseFlight house(R"(<FindWindow near="4;0"/>)");
-  house.sees({openingAt(2, "window", 0.2, kClosed)});
+  house.sees({openingAt(2, "window", 0.2, kIsClosed)});
   EXPECT_EQ(house.tick(), "FAILED");
   EXPECT_EQ(house.flight.cause(), "FindWindow: window 2 is closed");
   HouseFlight narrow(R"(<FindWindow near="4;0"/>)");
-  auto slit = openingAt(3, "window", 0.0, kOpen);
+  auto slit = openingAt(3, "window", 0.0, kIsOpen);
   slit.size_m.x() = 0.6;
   narrow.sees({slit}).flyViews();
   EXPECT_EQ(narrow.flight.cause(), "FindWindow: no open window was detected from here: 1 too narrow");
@@ -166,13 +166,13 @@ TEST(FindWindow, LooksAllAroundWithoutAStoredPlace) {
 
 TEST(FlyThroughWindow, SaysWhyItTurnedBackAndNeedsAKnownOne) {
   HouseFlight house(R"(<FlyThroughWindow window="3"/>)");
-  house.sees({openingAt(3, "window", 0.0, kOpen)});
+  house.sees({openingAt(3, "window", 0.0, kIsOpen)});
   EXPECT_EQ(house.tick(), "RUNNING 1 fly through window 3");
   house.flight.fails("it is no longer seen");
   EXPECT_EQ(house.tick(), "FAILED");
   EXPECT_EQ(house.flight.cause(), "FlyThroughWindow: it is no longer seen");
   HouseFlight unknown(R"(<FlyThroughWindow window="4"/>)");
-  unknown.sees({openingAt(3, "window", 0.0, kOpen)});
+  unknown.sees({openingAt(3, "window", 0.0, kIsOpen)});
   EXPECT_EQ(unknown.tick(), "FAILED");
   EXPECT_EQ(unknown.flight.cause(), "FlyThroughWindow: no object 4 is known");
 }
@@ -180,7 +180,7 @@ TEST(FlyThroughWindow, SaysWhyItTurnedBackAndNeedsAKnownOne) {
 /// What interrupts it behind the middle of the window must not turn it round.
 TEST(FlyThroughWindow, KeepsItsDirectionWhenItIsInterrupted) {
   HouseFlight house(R"(<Priority><AvoidObstacle/><FlyThroughWindow window="3"/></Priority>)");
-  house.sees({openingAt(3, "window", 0.0, kOpen)});
+  house.sees({openingAt(3, "window", 0.0, kIsOpen)});
   house.tick();
   const auto heading_rad = [&] {
     const auto* intent = std::get_if<common::FlyThroughIntent>(&house.flight.context.intent->kind);
@@ -227,7 +227,7 @@ TEST(FindPositionIndoor, TriesAnotherPlaceWhereOneIsNotReached) {
 
 TEST(LeaveByDoor, GoesByTheStoredPlaceWithoutARecognizedOne) {
   HouseFlight house(R"(<LeaveByDoor door="4;1" outside="4.6;1"/>)");
-  house.sees({openingAt(1, "door", 1.0, kClosed), openingAt(2, "door", -3.0, kOpen)});
+  house.sees({openingAt(1, "door", 1.0, kIsClosed), openingAt(2, "door", -3.0, kIsOpen)});
   EXPECT_EQ(house.tick(), "RUNNING 1 go to (4.00, 1.00)");
   EXPECT_THAT(house.flight.events(), Contains(StartsWith("leaves by the door (no open door is recognized")));
   house.flight.succeeds();
@@ -240,7 +240,7 @@ TEST(LeaveByDoor, GoesByTheStoredPlaceWithoutARecognizedOne) {
 TEST(LeaveByDoor, GoesThroughTheOneThatIsRecognizedOnTheWay) {
   HouseFlight house(R"(<LeaveByDoor door="4;1.5" outside="4.6;1"/>)");
   EXPECT_EQ(house.tick(), "RUNNING 1 go to (4.00, 1.50)");
-  house.sees({openingAt(7, "door", 1.0, kOpen)});
+  house.sees({openingAt(7, "door", 1.0, kIsOpen)});
   EXPECT_EQ(house.tick(), "RUNNING 2 go to (5.00, 1.00)");
   EXPECT_THAT(house.flight.events().back(), HasSubstr("door 7 is open"));
   house.flight.succeeds();
@@ -278,7 +278,7 @@ TEST(LeaveHouseByWindow, FliesThroughTheWindowThatItFinds) {
   HouseFlight house(leaveHouse());
   EXPECT_EQ(house.tick(), "RUNNING 1 go to (2.00, 0.00)");
   house.flight.at(2.0, 0.0).succeeds();
-  house.sees({openingAt(3, "window", 0.0, kOpen)}).tick();
+  house.sees({openingAt(3, "window", 0.0, kIsOpen)}).tick();
   house.flight.stops();
   EXPECT_THAT(house.tick(), HasSubstr("fly through window 3"));
   house.flight.succeeds();
@@ -287,7 +287,7 @@ TEST(LeaveHouseByWindow, FliesThroughTheWindowThatItFinds) {
 
 TEST(LeaveHouseByWindow, TriesFromAnotherPositionAndAtLastLeavesByTheDoor) {
   HouseFlight house(leaveHouse());
-  house.sees({openingAt(2, "window", 0.0, kClosed)});
+  house.sees({openingAt(2, "window", 0.0, kIsClosed)});
   const auto places = house.flyViews();
   EXPECT_EQ(house.flight.last.state, common::MissionState::kDone) << house.flight.last.reason;
   EXPECT_NEAR(places.back().position_m().x(), 4.6, 1e-9) << "outside";
@@ -301,7 +301,7 @@ TEST(LeaveHouseByWindow, TriesFromAnotherPositionAndAtLastLeavesByTheDoor) {
 /// A window that is lost in flight is looked for once more, from elsewhere.
 TEST(LeaveHouseByWindow, FliesThroughAtTheSecondTry) {
   HouseFlight house(leaveHouse());
-  house.sees({openingAt(3, "window", 0.0, kOpen)});
+  house.sees({openingAt(3, "window", 0.0, kIsOpen)});
   house.flyViews();
   ASSERT_THAT(house.tick(), HasSubstr("fly through window 3"));
   house.flight.fails("it is no longer seen");
