@@ -10,6 +10,7 @@ SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig*
                            const common::LaserConfig* vertical_laser, common::JobRunner& jobs, common::EventLog& log)
     : rgbd_(camera && !camera->isStereo() ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs, log) : nullptr),
       stereo_(camera && camera->isStereo() ? std::make_unique<StereoPipeline>(*camera, jobs, log) : nullptr),
+      stereo_map_(stereo_ ? std::make_unique<StereoMap>(config.rgbd, *camera, stereo_->noise(), jobs) : nullptr),
       vertical_laser_(vertical_laser && !camera
                           ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs, log)
                           : nullptr),
@@ -31,6 +32,8 @@ void SpaceSensors::add(std::shared_ptr<const common::VerticalScan> sweep) {
 std::optional<CameraStep> SpaceSensors::takeStep(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   if (stereo_) {
     stereo_->watch(now);
+    stereo_map_->watch(keys, now);
+    if (auto frame = stereo_->takeFrame()) stereo_map_->add(std::move(frame));
     return stereo_->take();
   }
   if (!rgbd_) return std::nullopt;
@@ -45,6 +48,7 @@ void SpaceSensors::forgetClone() {
 
 void SpaceSensors::map(const MapSituation& situation, Time now) {
   if (rgbd_) mapFrame(situation, now);
+  if (stereo_map_) mapPair(situation, now);
   if (targets_) lookForTargets(situation, now);
   if (vertical_laser_) mapSweeps(situation, now);
 }
@@ -63,6 +67,15 @@ void SpaceSensors::mapFrame(const MapSituation& situation, Time now) {
   const auto time = rgbd_->next();
   if (time && situation.poses.isKnown(*time, now, rgbd_->waitUntil()))
     rgbd_->map(situationAt(*time, situation, now), now);
+}
+
+/// Where the filter knows the position by the camera, no scan needs to have matched.
+void SpaceSensors::mapPair(const MapSituation& situation, Time now) {
+  const auto time = stereo_map_->next();
+  if (!time || !situation.poses.isKnown(*time, now, stereo_map_->waitUntil())) return;
+  FrameSituation at = situationAt(*time, situation, now);
+  at.supported = at.supported || isPlacedByStereo(now);
+  stereo_map_->map(at, now);
 }
 
 void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
@@ -86,6 +99,7 @@ void SpaceSensors::mapSweeps(const MapSituation& situation, Time now) {
 
 std::shared_ptr<const common::Map3dLayer> SpaceSensors::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
   if (vertical_laser_) return vertical_laser_->layer(keys);
+  if (stereo_map_) return stereo_map_->layer(keys);
   return rgbd_ ? rgbd_->layer(keys) : nullptr;
 }
 

@@ -28,9 +28,10 @@ struct StereoPipeline::Job {
 
   Outcome work(const common::RgbdFrame& pair, bool forget) {
     if (forget) odometry.forget();
-    const auto frame = matcher.match(pair);
-    if (!frame) return {frame.error(), {}, {}};
-    return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera)};
+    auto matched = matcher.match(pair);
+    if (!matched) return {matched.error(), {}, {}, nullptr};
+    const auto frame = std::make_shared<const common::RgbdFrame>(std::move(*matched));
+    return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera), frame};
   }
 
   vision::StereoMatcher matcher;
@@ -43,6 +44,7 @@ StereoPipeline::StereoPipeline(const common::RgbdCameraConfig& camera, common::J
       jobs_(jobs),
       T_body_camera_(camera.mount.pose()),
       job_(std::make_shared<Job>(camera)),
+      noise_(job_->matcher.noise()),
       silence_("stereo camera", "pair", kPairsSilent_s, log),
       blind_(kBlind_s, kBlind_s),
       scale_(T_body_camera_) {}
@@ -78,6 +80,7 @@ void StereoPipeline::take(const Outcome& outcome, Time delivered) {
   if (seen.became_key_frame && !forget_) step.clone_after = seen.stamp;
   report(missing, delivered);
   step_ = step;
+  frame_ = scale_.contradiction() ? nullptr : outcome.frame;
 }
 
 /// Why the pair measures no motion. One whose depths are scaled measures a scaled motion.

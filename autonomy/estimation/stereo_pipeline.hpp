@@ -1,7 +1,8 @@
 // Measures the motion with a stereo camera. The heavy work is a job: depths by stereo, then visual odometry.
 //
 //   pair --> StereoMatcher --> RGB-D frame --> VisualOdometry, a job --> CameraStep for the filter
-//     ^--- a newer pair replaces one that waits          \--> what lies below, compared with the beams down
+//     ^--- a newer pair replaces one that waits  |       \--> what lies below, compared with the beams down
+//                                                \--> the frame itself, for the 3D map
 //
 // Pairs that cannot be used, a silent camera, depths that the beams down contradict, and times without visual odometry
 // leave events.
@@ -26,6 +27,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/time.hpp"
 #include "perception/visual_odometry/visual_odometry.hpp"
+#include "vision/features.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -45,6 +47,11 @@ class StereoPipeline {
   void watch(common::Time now);
   /// What the last pair tells the filter, without a measurement if it showed no motion; nullopt if it was taken before.
   std::optional<CameraStep> take() { return std::exchange(step_, std::nullopt); }
+  /// The frame of the last pair, for whoever maps it; null for one that cannot be used or whose depths the beams down
+  /// contradict, and once it was taken.
+  std::shared_ptr<const common::RgbdFrame> takeFrame() { return std::exchange(frame_, nullptr); }
+  /// How the depths err.
+  const vision::DepthNoiseConfig& noise() const { return noise_; }
   /// See StereoScale::addBeams.
   void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
     scale_.addBeams(stamp, below_m, R_level_body);
@@ -57,7 +64,8 @@ class StereoPipeline {
   struct Outcome {
     common::Message fault;  ///< Of the pair; without a name for one that could be used.
     perception::VisualStep step;
-    std::vector<Eigen::Vector3f> below_body_m;  ///< See pointsBelow_body_m.
+    std::vector<Eigen::Vector3f> below_body_m;        ///< See pointsBelow_body_m.
+    std::shared_ptr<const common::RgbdFrame> frame;  ///< Null for a pair that could not be used.
   };
   void take(const Outcome& outcome, common::Time delivered);
   common::Message missingOf(const Outcome& outcome, common::Time delivered);
@@ -68,6 +76,7 @@ class StereoPipeline {
   common::JobRunner& jobs_;
   common::Pose3 T_body_camera_;
   std::shared_ptr<Job> job_;  ///< Belongs to the job while one is outstanding.
+  vision::DepthNoiseConfig noise_;
   SilenceWatch silence_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_;         ///< Of the last pair that was taken.
@@ -76,6 +85,7 @@ class StereoPipeline {
   StereoScale scale_;
   bool forget_ = false;
   std::optional<CameraStep> step_;
+  std::shared_ptr<const common::RgbdFrame> frame_;  ///< See takeFrame.
 };
 
 /// The motion of the body that carries the camera, as a measurement for the filter.
