@@ -44,7 +44,7 @@ struct PlacedByEstimate {
 
   void drawInto(mapping3d::SubmapStore& submaps) const {
     const bool mask = !people.empty();
-    const common::RgbdFrame masked = mask ? withoutPeople(*frame, T_map_camera, people) : common::RgbdFrame{};
+    const common::RgbdFrame masked = mask ? mapping3d::withoutPeople(*frame, T_map_camera, people) : common::RgbdFrame{};
     submaps.draw({*frame, mask ? masked : *frame, T_map_camera, key, people}, *keys);
   }
 };
