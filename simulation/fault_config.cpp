@@ -54,7 +54,8 @@ void FaultConfig::describe(common::config::Fields& fields) {
   fields.choice(
       "kind", kind, kKinds,
       "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, black, white, flipped, "
-      "other_size and torn for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell for "
+      "other_size and torn for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell "
+      "for "
       "the "
       "battery.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");

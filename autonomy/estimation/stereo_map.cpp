@@ -16,8 +16,8 @@ using common::Duration;
 using common::Pose3;
 using common::Time;
 
-/// Greatest wait of a frame for a scan that is not older: two scans of a laser at 40 Hz. Pairs come later than scans, so
-/// that they hardly ever wait.
+/// Greatest wait of a frame for a scan that is not older: two scans of a laser at 40 Hz. Pairs come later than scans,
+/// so that they hardly ever wait.
 constexpr Duration kStereoWait = Duration::fromMilliseconds(50);
 
 /// Up to where the standard deviation of a depth is a voxel.
@@ -25,7 +25,8 @@ double certainRange_m(const vision::DepthNoiseConfig& noise, double resolution_m
   return std::sqrt(resolution_m / noise.sigma_per_m2);
 }
 
-std::shared_ptr<mapping3d::SubmapStore> storeFor(const mapping3d::Mapper3dConfig& config, const vision::DepthNoiseConfig& noise) {
+std::shared_ptr<mapping3d::SubmapStore> storeFor(const mapping3d::Mapper3dConfig& config,
+                                                 const vision::DepthNoiseConfig& noise) {
   mapping3d::VoxelConfig voxels = config.voxels;
   mapping3d::SubmapConfig submaps = config.submaps;
   const double range_m = certainRange_m(noise, voxels.resolution_m);
@@ -44,7 +45,8 @@ struct PlacedByEstimate {
 
   void drawInto(mapping3d::SubmapStore& submaps) const {
     const bool mask = !people.empty();
-    const common::RgbdFrame masked = mask ? mapping3d::withoutPeople(*frame, T_map_camera, people) : common::RgbdFrame{};
+    const common::RgbdFrame masked =
+        mask ? mapping3d::withoutPeople(*frame, T_map_camera, people) : common::RgbdFrame{};
     submaps.draw({*frame, mask ? masked : *frame, T_map_camera, key, people}, *keys);
   }
 };

@@ -64,7 +64,7 @@ class StereoPipeline {
   struct Outcome {
     common::Message fault;  ///< Of the pair; without a name for one that could be used.
     perception::VisualStep step;
-    std::vector<Eigen::Vector3f> below_body_m;        ///< See pointsBelow_body_m.
+    std::vector<Eigen::Vector3f> below_body_m;       ///< See pointsBelow_body_m.
     std::shared_ptr<const common::RgbdFrame> frame;  ///< Null for a pair that could not be used.
   };
   void take(const Outcome& outcome, common::Time delivered);

@@ -114,7 +114,8 @@ void SlidingMode::Config::describe(common::config::Fields& fields) {
          "Distance from the sliding surface within which the switching acceleration is in proportion to the distance, "
          "against chattering.");
   fields("disturbance_filter_s", disturbance_filter_s, {0.02, 100}, "Time constant of the estimated disturbance.");
-  fields("attitude_lag_s", attitude_lag_s, {0.01, 0.5}, "Time the attitude takes to follow a command, for the estimated disturbance.");
+  fields("attitude_lag_s", attitude_lag_s, {0.01, 0.5},
+         "Time the attitude takes to follow a command, for the estimated disturbance.");
   fields("thrust_lag_s", thrust_lag_s, {0.01, 0.5}, "Time the thrust takes to follow a command.");
   fields("yaw_p_1_s", yaw_p_1_s, {0, 10}, "Yaw rate per yaw error.");
 }

@@ -58,11 +58,11 @@ class OdometryChoice {
   /// Three pairs at 4 Hz: pictures that are blurred in turns with sharp ones do not make the sensors take turns.
   static constexpr double kSettled_s = 0.7;
   struct Sensor {
-    double deviation_m = kNothing;   ///< As of `at`; a single turn that brings nothing does not change it.
+    double deviation_m = kNothing;  ///< As of `at`; a single turn that brings nothing does not change it.
     std::optional<common::Time> at;
-    bool brought_nothing = false;    ///< In its last turn.
+    bool brought_nothing = false;  ///< In its last turn.
     std::optional<common::Time> last_turn;
-    double period_s = 0.0;           ///< From turn to turn; 0 before the second.
+    double period_s = 0.0;  ///< From turn to turn; 0 before the second.
 
     bool isOverdue(common::Time now) const;
   };
