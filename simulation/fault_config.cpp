@@ -42,8 +42,7 @@ common::Validation timeProblems(const FaultConfig& fault) {
 
 bool isOfPictures(FaultKind kind) {
   return kind == FaultKind::kBlack || kind == FaultKind::kWhite || kind == FaultKind::kFlipped ||
-         kind == FaultKind::kOtherSize || kind == FaultKind::kTorn || kind == FaultKind::kExchanged ||
-         kind == FaultKind::kOneSided;
+         kind == FaultKind::kOtherSize || kind == FaultKind::kExchanged || kind == FaultKind::kOneSided;
 }
 
 bool isOfBattery(FaultKind kind) { return kind == FaultKind::kLostCell; }
@@ -53,9 +52,8 @@ void FaultConfig::describe(common::config::Fields& fields) {
                 "Which sensor fails.");
   fields.choice(
       "kind", kind, kKinds,
-      "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, black, white, flipped, "
-      "other_size and torn for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell "
-      "for "
+      "What goes wrong; stuck and bias are for the imu, mirror and blocked for the laser, black, white, flipped "
+      "and other_size for camera and rgbd, exchanged and one_sided for a rgbd that is a stereo camera, lost_cell for "
       "the "
       "battery.");
   fields("from_s", from_s, {0, 1e6}, "Time at which the fault begins; with place or phase, before which it does not.");

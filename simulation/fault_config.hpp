@@ -23,7 +23,6 @@ enum class FaultKind {
   kWhite,       ///< Of a camera: colours are white and nothing has depth, as in the sun.
   kFlipped,     ///< Of a camera: left and right of the pictures are exchanged.
   kOtherSize,   ///< Of a camera: pictures have half the width and half the height that they should have.
-  kTorn,        ///< Of a camera: bytes were lost in the middle of a colour picture, of a pair the left one.
   kExchanged,   ///< Of a stereo camera: the pictures of the left and of the right camera are exchanged.
   kOneSided,    ///< Of a stereo camera: the right camera sends no picture.
   kClockJump,   ///< The clock that stamps the measurements is off by `jump_s`.

@@ -33,15 +33,7 @@ std::vector<Value> halved(const std::vector<Value>& values, int width_px, int he
   return smaller;
 }
 
-/// A third of a row is lost in the middle: what follows lies that much farther to the left, and the end is missing.
-void tear(common::Image& image) {
-  const auto lost = static_cast<std::ptrdiff_t>(image.width_px / 3) * 3;
-  const auto middle = image.rgb.begin() + static_cast<std::ptrdiff_t>(image.height_px / 2) * image.width_px * 3;
-  std::fill(std::copy(middle + lost, image.rgb.end(), middle), image.rgb.end(), std::uint8_t{0});
-}
-
 void spoil(FaultKind kind, common::Image& image) {
-  if (kind == FaultKind::kTorn) tear(image);
   if (kind == FaultKind::kBlack) std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{0});
   if (kind == FaultKind::kWhite) std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{255});
   if (kind == FaultKind::kFlipped) flip(image.rgb, image.width_px, 3);
@@ -73,7 +65,7 @@ std::optional<common::SensorEvent> withPictureFault(FaultKind kind, const common
   spoil(kind, copy->depth);
   if (copy->right) {
     auto right = std::make_shared<common::Image>(*copy->right);
-    if (kind != FaultKind::kTorn) spoil(kind, *right);
+    spoil(kind, *right);
     if (kind == FaultKind::kExchanged) std::swap(copy->color, *right);
     copy->right = kind == FaultKind::kOneSided ? nullptr : std::move(right);
   }

@@ -133,7 +133,6 @@ std::optional<SensorEvent> withFault(const ActiveFault& active, const SensorEven
     case FaultKind::kWhite:
     case FaultKind::kFlipped:
     case FaultKind::kOtherSize:
-    case FaultKind::kTorn:
     case FaultKind::kExchanged:
     case FaultKind::kOneSided:
       return withPictureFault(fault.kind, event);
