@@ -36,9 +36,9 @@ TEST(StereoFlight, OutOfTheHouseByItsWindowAndRoundIt) {
   EXPECT_EQ(scores[0].collisions, 0);
   // Held-back seeds have up to 1.1 % (docs/decisions/fusion.md#120).
   EXPECT_LT(scores[0].figure("end_error_share").value_or(1.0), 0.015);
-  // The paper's 20 cm are the trial's criterion; here it is that nothing gets worse.
+  // The paper's 20 cm, and 10 cm in the window, as the trial asks for.
   for (const evaluation::PhaseScore& phase : scores[0].phases)
-    EXPECT_LT(phase.figure("control_error_max_m").value_or(1.0), phase.name == "window" ? 0.15 : 0.3) << phase.name;
+    EXPECT_LT(phase.figure("control_error_max_m").value_or(1.0), phase.name == "window" ? 0.1 : 0.2) << phase.name;
   std::filesystem::remove_all(folder);
 }
 
