@@ -11,7 +11,7 @@ bool HeardFilter::uses(perception::OdometrySource source, const std::optional<pe
     log.info(now, "fusion", fmt::format("odometry switched to {}", perception::toString(change->to)),
              fmt::format("standard deviations: {} {:.1f} mm, {} {:.1f} mm", perception::toString(change->to),
                          1e3 * change->to_m, perception::toString(change->from), 1e3 * change->from_m));
-  return measurement && choice_.uses(source);
+  return measurement && choice_.uses(source, now);
 }
 
 void HeardFilter::reportHealth(common::Time now, common::EventLog& log) {

@@ -29,6 +29,7 @@ SpaceSensors::SpaceSensors(const Config& config, const common::RgbdCameraConfig*
                            const common::LaserConfig* vertical_laser, common::JobRunner& jobs, common::EventLog& log)
     : rgbd_(camera && !camera->isStereo() ? std::make_unique<RgbdPipeline>(config.rgbd, *camera, jobs, log) : nullptr),
       stereo_(camera && camera->isStereo() ? std::make_unique<StereoPipeline>(*camera, jobs, log) : nullptr),
+      stereo_map_(stereo_ ? std::make_unique<StereoMap>(config.rgbd, *camera, stereo_->noise(), jobs) : nullptr),
       vertical_laser_(vertical_laser && !camera
                           ? std::make_unique<VerticalLaserPipeline>(config.vertical_laser, *vertical_laser, jobs, log)
                           : nullptr),
@@ -55,6 +56,11 @@ void SpaceSensors::add(std::shared_ptr<const common::VerticalScan> sweep) {
 std::optional<CameraStep> SpaceSensors::takeStep(const std::shared_ptr<const common::KeyPoses>& keys, Time now) {
   if (stereo_) {
     stereo_->watch(now);
+    stereo_map_->watch(keys, now);
+    if (auto frame = stereo_->takeFrame()) {
+      if (recognition_) recognition_->add(frame);
+      stereo_map_->add(std::move(frame));
+    }
     return stereo_->take();
   }
   if (!rgbd_) return std::nullopt;
@@ -69,6 +75,7 @@ void SpaceSensors::forgetClone() {
 
 void SpaceSensors::map(const MapSituation& situation, Time now) {
   if (rgbd_) mapFrame(situation, now);
+  if (stereo_map_) mapPair(situation, now);
   if (targets_) lookForTargets(situation, now);
   if (recognition_) recognize(situation, now);
   if (vertical_laser_) mapSweeps(situation, now);
@@ -90,6 +97,15 @@ void SpaceSensors::mapFrame(const MapSituation& situation, Time now) {
     rgbd_->map(situationAt(*time, situation, now), now);
 }
 
+/// Where the filter knows the position by the camera, no scan needs to have matched.
+void SpaceSensors::mapPair(const MapSituation& situation, Time now) {
+  const auto time = stereo_map_->next();
+  if (!time || !situation.poses.isKnown(*time, now, stereo_map_->waitUntil())) return;
+  FrameSituation at = situationAt(*time, situation, now);
+  at.supported = at.supported || isPlacedByStereo(now);
+  stereo_map_->map(at, now);
+}
+
 void SpaceSensors::lookForTargets(const MapSituation& situation, Time now) {
   targets_->reportFound(situation.names);
   const common::CameraEstimate camera = rgbd_->camera();
@@ -105,8 +121,6 @@ common::CameraEstimate SpaceSensors::anyCamera() const {
 
 void SpaceSensors::recognize(const MapSituation& situation, Time now) {
   recognition_->report(*situation.keys, situation.names, now);
-  if (stereo_)
-    if (auto frame = stereo_->takeFrame()) recognition_->add(std::move(frame));
   if (!hasCamera() && !recognition_->next(0.0)) recognition_->add(emptyFrame(now));
   const common::CameraEstimate camera = anyCamera();
   const auto time = recognition_->next(camera.clock_offset_s);
@@ -130,6 +144,7 @@ void SpaceSensors::mapSweeps(const MapSituation& situation, Time now) {
 
 std::shared_ptr<const common::Map3dLayer> SpaceSensors::layer(const std::shared_ptr<const common::KeyPoses>& keys) {
   if (vertical_laser_) return vertical_laser_->layer(keys);
+  if (stereo_map_) return stereo_map_->layer(keys);
   return rgbd_ ? rgbd_->layer(keys) : nullptr;
 }
 

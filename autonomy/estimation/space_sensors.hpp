@@ -1,6 +1,6 @@
 // The sensors of the third dimension, an RGB-D camera or else an upright laser: each frame and sweep waits until the
 // pose of its own time is known, then makes the 3D map; in frames coloured targets are looked for too, and what
-// the profile names is recognized. Pairs of a stereo camera measure the motion, and show patterns.
+// the profile names is recognized. Pairs of a stereo camera measure the motion, make the 3D map, and show patterns.
 #pragma once
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include "autonomy/estimation/pose_track.hpp"
 #include "autonomy/estimation/recognition_pipeline.hpp"
 #include "autonomy/estimation/rgbd_pipeline.hpp"
+#include "autonomy/estimation/stereo_map.hpp"
 #include "autonomy/estimation/stereo_pipeline.hpp"
 #include "autonomy/estimation/target_pipeline.hpp"
 #include "autonomy/estimation/vertical_laser_pipeline.hpp"
@@ -107,6 +108,7 @@ class SpaceSensors {
   static constexpr double kStereoPlaces_s = 0.7;
   static FrameSituation situationAt(common::Time time, const MapSituation& situation, common::Time now);
   void mapFrame(const MapSituation& situation, common::Time now);
+  void mapPair(const MapSituation& situation, common::Time now);
   void lookForTargets(const MapSituation& situation, common::Time now);
   void recognize(const MapSituation& situation, common::Time now);
   common::CameraEstimate anyCamera() const;
@@ -114,6 +116,7 @@ class SpaceSensors {
 
   std::unique_ptr<RgbdPipeline> rgbd_;                     ///< Null without a camera, and with a stereo camera.
   std::unique_ptr<StereoPipeline> stereo_;                 ///< Null without a stereo camera.
+  std::unique_ptr<StereoMap> stereo_map_;                  ///< Likewise.
   std::unique_ptr<VerticalLaserPipeline> vertical_laser_;  ///< Null without one, and with a camera.
   std::unique_ptr<TargetPipeline> targets_;  ///< Null without an RGB-D camera, and without targets to look for.
   std::unique_ptr<RecognitionPipeline> recognition_;  ///< Null without a camera, and without anything to recognize.

@@ -29,7 +29,7 @@ struct StereoPipeline::Job {
   Outcome work(const common::RgbdFrame& pair, bool forget) {
     if (forget) odometry.forget();
     auto matched = matcher.match(pair);
-    if (!matched) return {matched.error(), {}, {}};
+    if (!matched) return {matched.error(), {}, {}, nullptr};
     const auto frame = std::make_shared<const common::RgbdFrame>(*std::move(matched));
     return {{}, odometry.add(*frame), pointsBelow_body_m(*frame, T_body_camera), frame};
   }
@@ -44,6 +44,7 @@ StereoPipeline::StereoPipeline(const common::RgbdCameraConfig& camera, common::J
       jobs_(jobs),
       T_body_camera_(camera.mount.pose()),
       job_(std::make_shared<Job>(camera)),
+      noise_(job_->matcher.noise()),
       silence_("stereo camera", "pair", kPairsSilent_s, log),
       blind_(kBlind_s, kBlind_s),
       scale_(T_body_camera_) {}
@@ -71,7 +72,6 @@ void StereoPipeline::watch(Time now) {
 
 /// What a pair of before the clones were forgotten measures starts from one of them.
 void StereoPipeline::take(const Outcome& outcome, Time delivered) {
-  frame_ = outcome.frame;
   CameraStep step;
   const perception::VisualStep& seen = outcome.step;
   const Message missing = missingOf(outcome, delivered);
@@ -80,6 +80,7 @@ void StereoPipeline::take(const Outcome& outcome, Time delivered) {
   if (seen.became_key_frame && !forget_) step.clone_after = seen.stamp;
   report(missing, delivered);
   step_ = step;
+  frame_ = scale_.contradiction() ? nullptr : outcome.frame;
 }
 
 /// Why the pair measures no motion. One whose depths are scaled measures a scaled motion.

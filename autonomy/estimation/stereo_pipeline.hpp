@@ -1,7 +1,8 @@
 // Measures the motion with a stereo camera. The heavy work is a job: depths by stereo, then visual odometry.
 //
 //   pair --> StereoMatcher --> RGB-D frame --> VisualOdometry, a job --> CameraStep for the filter
-//     ^--- a newer pair replaces one that waits          \--> what lies below, compared with the beams down
+//     ^--- a newer pair replaces one that waits  |       \--> what lies below, compared with the beams down
+//                                                \--> the frame itself, for the 3D map
 //
 // Pairs that cannot be used, a silent camera, depths that the beams down contradict, and times without visual odometry
 // leave events.
@@ -26,6 +27,7 @@
 #include "common/rgbd_frame.hpp"
 #include "common/time.hpp"
 #include "perception/visual_odometry/visual_odometry.hpp"
+#include "vision/features.hpp"
 
 namespace swiftlet::autonomy {
 
@@ -45,9 +47,12 @@ class StereoPipeline {
   void watch(common::Time now);
   /// What the last pair tells the filter, without a measurement if it showed no motion; nullopt if it was taken before.
   std::optional<CameraStep> take() { return std::exchange(step_, std::nullopt); }
-  /// The left picture of the last pair, rectified, with depths; null if it was taken before, or without a usable one.
+  /// The left picture of the last pair, rectified, with depths; null if it was taken before, for a pair that cannot be
+  /// used, and for one whose depths the beams down contradict.
   std::shared_ptr<const common::RgbdFrame> takeFrame() { return std::exchange(frame_, nullptr); }
   const common::Pose3& T_body_camera() const { return T_body_camera_; }
+  /// How the depths err.
+  const vision::DepthNoiseConfig& noise() const { return noise_; }
   /// See StereoScale::addBeams.
   void addBeams(common::Time stamp, double below_m, const Eigen::Quaterniond& R_level_body) {
     scale_.addBeams(stamp, below_m, R_level_body);
@@ -72,6 +77,7 @@ class StereoPipeline {
   common::JobRunner& jobs_;
   common::Pose3 T_body_camera_;
   std::shared_ptr<Job> job_;  ///< Belongs to the job while one is outstanding.
+  vision::DepthNoiseConfig noise_;
   SilenceWatch silence_;
   std::shared_ptr<const common::RgbdFrame> waiting_;  ///< Null without one.
   std::optional<common::Time> last_measured_;         ///< Of the last pair that was taken.

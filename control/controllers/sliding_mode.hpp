@@ -9,7 +9,7 @@
 #include "common/vehicle_config.hpp"
 #include "control/control_errors.hpp"
 #include "control/controller.hpp"
-#include "control/lagged_reference.hpp"
+#include "control/smoothed_reference.hpp"
 
 namespace swiftlet::control {
 
@@ -38,7 +38,7 @@ class SlidingMode final : public Controller {
   void setTrim(const Eigen::Vector3d& trim_odom_m_s2, const ThrustModel& thrust) override;
 
  private:
-  ControlErrors laggedErrors(const ControlInput& input);
+  ControlErrors smoothedErrors(const ControlInput& input);
   void estimateDisturbance(const ControlInput& input, const Eigen::Vector3d& given_m_s2);
   Eigen::Vector3d slide(const Eigen::Vector3d& nominal_m_s2, const ControlErrors& errors) const;
   void advanceSurface(const Eigen::Vector3d& nominal_m_s2, const Eigen::Vector3d& refused_m_s2,
@@ -46,7 +46,7 @@ class SlidingMode final : public Controller {
 
   Config config_;
   common::VehicleConfig vehicle_;
-  LaggedReference lagged_;
+  SmoothedReference smoothed_;
   /// The integral part of the surface, so that sigma = de/dt + integral; nullopt until the surface has been placed
   /// through the present state.
   std::optional<Eigen::Vector3d> integral_m_s_;

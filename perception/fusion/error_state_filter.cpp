@@ -30,6 +30,10 @@ constexpr double kAhrsDriftSigma_deg_s = 0.05;
 /// drag alone, which leaves half a metre per second in gusts (docs/decisions/fusion.md#018); with less the vehicle
 /// would come down in every corridor without features.
 constexpr double kValidVelocitySigma_m_s = 0.7;
+/// Where one odometry is used at a time, the other takes over when the first has been silent for this long
+/// (OdometryChoice), and inertia carries the position until then. It is used alone for longer against a laser that
+/// contradicts it (docs/decisions/fusion.md#091).
+constexpr double kTakesOver_s = 0.7;
 
 /// Position and yaw are zero by definition. Gravity shows only the sum of tilt and accelerometer bias: both start with
 /// a wide covariance, and one gravity measurement correlates them.
@@ -102,7 +106,8 @@ bool ErrorStateFilter::Impl::horizontalFresh(const Slot& newest) const {
   const FilterState& s = newest.state;
   const double laser_s = (s.stamp - s.relative_gate.last_accepted).seconds();
   const double camera_s = (s.stamp - s.spatial_gate.last_accepted).seconds() - camera_delay_s;
-  return newest.at_rest || std::min(laser_s, camera_s) <= config.horizontal_timeout_s;
+  const double takes_over_s = config.odometry_choice == OdometryRule::kBest ? kTakesOver_s : 0.0;
+  return newest.at_rest || std::min(laser_s, camera_s) <= config.horizontal_timeout_s + takes_over_s;
 }
 
 bool ErrorStateFilter::Impl::verticalFresh(const Slot& newest) const {

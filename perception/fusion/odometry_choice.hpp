@@ -9,7 +9,9 @@
 //          <------------------------------------------------------------------
 //            laser clearly better for a while, or vision measures nothing
 //
-// A sensor measures nothing when it says so in two turns, or falls silent.
+// A sensor measures nothing when it says so in two turns, or falls silent. From the first turn in which it brings
+// nothing the other one stands in for it, if that measures: its variance is then the smallest that there is. That is no
+// switch yet, and ends with the next measurement of the sensor that is used.
 #pragma once
 
 #include <array>
@@ -49,15 +51,20 @@ class OdometryChoice {
 
   /// A sensor has measured with that standard deviation, or nothing (kNothing), in its turn. The switch that follows.
   std::optional<OdometrySwitch> measured(OdometrySource source, double deviation_m, common::Time now);
-  /// Whether the filter uses it.
-  bool uses(OdometrySource source) const { return rule_ == OdometryRule::kAll || source == used_; }
+  /// Whether the filter uses what it measures now.
+  bool uses(OdometrySource source, common::Time now) const;
 
  private:
   /// Three pairs at 4 Hz: pictures that are blurred in turns with sharp ones do not make the sensors take turns.
   static constexpr double kSettled_s = 0.7;
   struct Sensor {
-    double deviation_m = kNothing;
+    double deviation_m = kNothing;  ///< As of `at`; a single turn that brings nothing does not change it.
     std::optional<common::Time> at;
+    bool brought_nothing = false;  ///< In its last turn.
+    std::optional<common::Time> last_turn;
+    double period_s = 0.0;  ///< From turn to turn; 0 before the second.
+
+    bool isOverdue(common::Time now) const;
   };
   double presentDeviation_m(OdometrySource source, common::Time now) const;
 

@@ -197,9 +197,9 @@ TEST_F(BadInput, AProfileThatNamesNothingOrWhatIsUnknownIsRefused) {
     expectRefused(fly({"--headless", hop(), "--system", write("mine.yaml", text)}),
                   "mine\\.yaml: names no setting, so it is no profile, the least one is `based_on: swiftlet`");
   const std::string system = write("mine.yaml", "vehicle: cobra\nlaser: utm\n");
-  expectRefused(
-      fly({"--headless", hop(), "--system", system}),
-      "mine\\.yaml:2:8: laser: utm: no such file.*config/sensors has firefly_stereo, sick_lms_291, urg_04lx, utm_30lx");
+  expectRefused(fly({"--headless", hop(), "--system", system}),
+                "mine\\.yaml:2:8: laser: utm: no such file.*config/sensors has firefly_stereo, firefly_stereo_ahead, "
+                "sick_lms_291, urg_04lx, utm_30lx");
 }
 
 TEST_F(BadInput, DataSheetsAreFoundBesideTheProfileThatNamesThem) {

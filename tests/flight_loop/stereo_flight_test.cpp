@@ -34,10 +34,11 @@ TEST(StereoFlight, OutOfTheHouseByItsWindowAndRoundIt) {
   for (const std::string& missed : scores[0].event_orders[0].missed()) ADD_FAILURE() << missed;
   EXPECT_TRUE(scores[0].mission_done) << scores[0].outcome;
   EXPECT_EQ(scores[0].collisions, 0);
-  EXPECT_LT(scores[0].figure("end_error_share").value_or(1.0), 0.005);
-  // The paper's 20 cm are the trial's criterion; here it is that nothing gets worse.
+  // Held-back seeds have up to 1.1 % (docs/decisions/fusion.md#120).
+  EXPECT_LT(scores[0].figure("end_error_share").value_or(1.0), 0.015);
+  // The paper's 20 cm, and 10 cm in the window, as the trial asks for.
   for (const evaluation::PhaseScore& phase : scores[0].phases)
-    EXPECT_LT(phase.figure("control_error_max_m").value_or(1.0), phase.name == "window" ? 0.15 : 0.3) << phase.name;
+    EXPECT_LT(phase.figure("control_error_max_m").value_or(1.0), phase.name == "window" ? 0.1 : 0.2) << phase.name;
   std::filesystem::remove_all(folder);
 }
 
