@@ -49,7 +49,7 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
   if (input.anybody_walks) memory_.people_seen = now_;
   if (intent.id != intent_.id) begin(intent);
   const PathFlight* flight = aim().flight;
-  rememberLowered(memory_, flight ? flight->plan() : nullptr, controller_, state_);
+  rememberHeights(memory_, flight ? flight->plan() : nullptr, controller_, state_);
   if (maneuver_) note(maneuver_->step(input));
   if (desk_.due(now_)) desk_.ask(planningRequest(input, client(), {}, aim().left_out), now_);
   status_.released = controller_.stopped() && !retreat_.active();
