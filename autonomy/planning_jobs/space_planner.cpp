@@ -123,12 +123,19 @@ std::optional<Vector3d> SpacePlanner::goalPlace(const GoalRequest& goal) const {
   return beside;
 }
 
+/// After the first line, which may leave a place that is not free.
+bool SpacePlanner::isFree(const std::vector<Vector3d>& places) const {
+  for (std::size_t i = 2; i < places.size(); ++i)
+    if (!maps_->hull.isFree(places[i - 1], places[i])) return false;
+  return true;
+}
+
 planning::Path SpacePlanner::pathThrough(std::vector<Vector3d> places, const FlightHeights& heights) const {
   const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - heights.cruise_m) > kSameHeight_m; };
   for (std::size_t i = 1; i < places.size(); ++i)
     if (!isOther(places[i])) places[i].z() = heights.cruise_m;
-  centre(places, heights.cruise_m);
-  places = withLateChanges(places, heights.cruise_m);
+  std::vector<Vector3d> flown = withLateChanges(centred(places, heights.cruise_m), heights.cruise_m);
+  places = isFree(flown) ? std::move(flown) : withLateChanges(places, heights.cruise_m);
   planning::Path path;
   for (const Vector3d& place : places) {
     path.points_map_m.emplace_back(place.head<2>());
@@ -143,45 +150,64 @@ planning::Path SpacePlanner::pathThrough(std::vector<Vector3d> places, const Fli
   return path;
 }
 
-/// Shortcuts graze what they pass: a place at another height goes to the middle between what is above and below, where
-/// the lines to its neighbours stay free.
-void SpacePlanner::centre(std::vector<Vector3d>& places, double cruise_m) const {
+/// Shortcuts graze what they pass: each stretch at another height goes to the middle between what is above and below it.
+std::vector<Vector3d> SpacePlanner::centred(std::vector<Vector3d> places, double cruise_m) const {
   constexpr double kStep_m = 0.025, kReach_m = 0.3;
   const planning::HullSpace& hull = maps_->hull;
-  const auto roomTowards = [&](const Vector3d& place, double sign) {
-    double room_m = 0.0;
-    while (room_m < kReach_m && hull.isFree(place + sign * (room_m + kStep_m) * Vector3d::UnitZ())) room_m += kStep_m;
-    return room_m;
+  const auto isInner = [&](std::size_t i) {
+    return i > 0 && i + 1 < places.size() && std::abs(places[i].z() - cruise_m) > kSameHeight_m;
   };
-  for (std::size_t i = 1; i + 1 < places.size(); ++i) {
-    if (std::abs(places[i].z() - cruise_m) <= kSameHeight_m) continue;
-    const double up_m = 0.5 * (roomTowards(places[i], 1.0) - roomTowards(places[i], -1.0));
-    const Vector3d middle = places[i] + up_m * Vector3d::UnitZ();
-    if (hull.isFree(places[i - 1], middle) && hull.isFree(middle, places[i + 1])) places[i] = middle;
+  for (std::size_t begin = 1, end = 1; begin + 1 < places.size(); begin = std::max(begin + 1, end)) {
+    for (end = begin; isInner(end);) ++end;
+    if (end == begin) continue;
+    const auto roomTowards = [&](double sign) {
+      double room_m = 0.0;
+      const auto isFree = [&](double off_m) {
+        const Vector3d off = sign * off_m * Vector3d::UnitZ();
+        if (!hull.isFree(places[begin] + off)) return false;
+        for (std::size_t i = begin + 1; i < end; ++i)
+          if (!hull.isFree(places[i - 1] + off, places[i] + off)) return false;
+        return true;
+      };
+      while (room_m < kReach_m && isFree(room_m + kStep_m)) room_m += kStep_m;
+      return room_m;
+    };
+    const double up_m = 0.5 * (roomTowards(1.0) - roomTowards(-1.0));
+    for (std::size_t i = begin; i < end; ++i) places[i].z() += up_m;
   }
+  return places;
 }
 
 /// Between a place at the height of flight and one at another height, the path stays at the height of flight as long as
-/// it may.
+/// it may, and changes its height on the spot, so that it is level where there is little room; on a slope where the
+/// camera has not seen enough for that.
 std::vector<Vector3d> SpacePlanner::withLateChanges(const std::vector<Vector3d>& places, double cruise_m) const {
   const planning::HullSpace& hull = maps_->hull;
   const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - cruise_m) > kSameHeight_m; };
-  /// The place on the line from `cruise` to `other` where the height changes; nullopt to change it along all of it.
-  const auto change = [&](const Vector3d& cruise, const Vector3d& other) -> std::optional<Vector3d> {
+  /// The places between `cruise` and `other` where the height changes; none to change it along all of the line.
+  const auto change = [&](const Vector3d& cruise, const Vector3d& other) -> std::vector<Vector3d> {
     const double planar_m = (other - cruise).head<2>().norm();
-    for (const double before_m : kBeforeNeed_m) {
-      if (before_m >= planar_m) break;
-      Vector3d at = other + before_m / planar_m * (cruise - other);
-      at.z() = cruise_m;
-      if (hull.isFree(cruise, at) && hull.isFree(at, other)) return at;
-    }
-    return std::nullopt;
+    for (const bool on_the_spot : {true, false})
+      for (const double before_m : kBeforeNeed_m) {
+        if (before_m >= planar_m) break;
+        Vector3d at = other + before_m / planar_m * (cruise - other);
+        const Vector3d level(at.x(), at.y(), other.z());
+        at.z() = cruise_m;
+        if (!hull.isFree(cruise, at)) continue;
+        if (on_the_spot && before_m == 0.0 && hull.isFree(at, other)) return {at};
+        if (on_the_spot && hull.isFree(at, level) && hull.isFree(level, other)) return {at, level};
+        if (!on_the_spot && hull.isFree(at, other)) return {at};
+      }
+    return {};
   };
   std::vector<Vector3d> result{places.front()};
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Vector3d &from = places[i - 1], &to = places[i];
-    if (isOther(from) != isOther(to))
-      if (const auto at = isOther(to) ? change(from, to) : change(to, from)) result.push_back(*at);
+    if (isOther(from) != isOther(to)) {
+      std::vector<Vector3d> between = isOther(to) ? change(from, to) : change(to, from);
+      if (isOther(from)) std::reverse(between.begin(), between.end());
+      result.insert(result.end(), between.begin(), between.end());
+    }
     result.push_back(to);
   }
   return result;

@@ -47,7 +47,8 @@ class SpacePlanner {
   void publish(const PlanningRequest& request, const FlightHeights& heights, const planning::CostLayers& layers);
   std::optional<Eigen::Vector3d> goalPlace(const GoalRequest& goal) const;
   planning::Path pathThrough(std::vector<Eigen::Vector3d> places_map_m, const FlightHeights& heights) const;
-  void centre(std::vector<Eigen::Vector3d>& places_map_m, double cruise_m) const;
+  bool isFree(const std::vector<Eigen::Vector3d>& places_map_m) const;
+  std::vector<Eigen::Vector3d> centred(std::vector<Eigen::Vector3d> places_map_m, double cruise_m) const;
   std::vector<Eigen::Vector3d> withLateChanges(const std::vector<Eigen::Vector3d>& places_map_m, double cruise_m) const;
 
   bool enabled_;

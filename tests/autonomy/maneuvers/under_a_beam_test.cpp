@@ -120,7 +120,7 @@ TEST_F(UnderABeam, AHoldBelowItStaysThereAndTheNextGoalLeadsOut) {
 TEST_F(UnderABeam, WithoutTheVoxelsItLeavesThePlaceBelowAsLowAsItIs) {
   see();
   want(to(6.5, 2.0));
-  runUntil([&] { return position_m().x() > 3.8; }, 40.0);
+  runUntil([&] { return position_m().x() > 3.95; }, 40.0);
   want(common::HoldIntent{});
   run(1.0);
   ASSERT_GT(position_m().x(), 3.75);
