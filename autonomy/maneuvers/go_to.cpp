@@ -156,8 +156,7 @@ void GoTo::shiftWhenDue(Time now) {
 bool GoTo::isDue(Time now) const {
   constexpr double kLooksEach_s = 0.5;
   const bool looks = sees_heights_ && (now - asked_).seconds() >= kLooksEach_s;
-  return !mayPass(no_path_->failure) || looks || shifted_ != asked_shifted_ ||
-         patience_.due(now, setup_.desk.opened());
+  return !mayPass(no_path_->failure) || looks || shifted_ != asked_shifted_ || patience_.due(now, setup_.desk.opened());
 }
 
 bool GoTo::givesUp(const ManeuverInput& input) const {

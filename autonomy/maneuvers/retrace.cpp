@@ -131,7 +131,8 @@ Eigen::Vector3d Retrace::atItsHeight(const Eigen::Vector2d& point_map_m) const {
   const double cruise_m = setup_.memory.cruise_height_m;
   double height_m = cruise_m;
   for (const Eigen::Vector3d& other : setup_.memory.other_heights_map_m)
-    if ((other.head<2>() - point_map_m).norm() < kNear_m && std::abs(other.z() - cruise_m) > std::abs(height_m - cruise_m))
+    if ((other.head<2>() - point_map_m).norm() < kNear_m &&
+        std::abs(other.z() - cruise_m) > std::abs(height_m - cruise_m))
       height_m = other.z();
   return {point_map_m.x(), point_map_m.y(), height_m};
 }

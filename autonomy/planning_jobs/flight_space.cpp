@@ -40,9 +40,7 @@ constexpr double kGridReach_m = 3.0;
 constexpr common::occupancy::Cell kSurelyFreeCell = -20;
 constexpr double kFlownEach_m = 0.1, kFlownJump_m = 1.0;
 
-int floorTo(int value, int step) {
-  return value >= 0 ? value / step * step : -((-value + step - 1) / step) * step;
-}
+int floorTo(int value, int step) { return value >= 0 ? value / step * step : -((-value + step - 1) / step) * step; }
 
 }  // namespace
 
@@ -108,10 +106,9 @@ void FlightSpace::addEvidence(const std::vector<PlacedSubmap>& submaps) {
       std::equal(near.begin(), near.end(), submaps_.begin(), submaps_.end(), same))
     return;
   submaps_ = std::move(near);
-  evidence_.assign(
-      static_cast<std::size_t>(box_.size.x) * static_cast<std::size_t>(box_.size.y) *
-          static_cast<std::size_t>(box_.size.z),
-      VoxelBlock::kUnknown);
+  evidence_.assign(static_cast<std::size_t>(box_.size.x) * static_cast<std::size_t>(box_.size.y) *
+                       static_cast<std::size_t>(box_.size.z),
+                   VoxelBlock::kUnknown);
   for (const PlacedSubmap& submap : submaps_) addEvidence(submap);
 }
 
@@ -123,8 +120,8 @@ void FlightSpace::addEvidence(const PlacedSubmap& submap) {
   std::optional<VoxelIndex> of;
   for (int y = 0; y < box_.size.y; ++y)
     for (int x = 0; x < box_.size.x; ++x) {
-      const Vector2d place_m = submap.T_submap_map * Vector2d((box_.begin.x + x + 0.5) * voxel_m_,
-                                                              (box_.begin.y + y + 0.5) * voxel_m_);
+      const Vector2d place_m =
+          submap.T_submap_map * Vector2d((box_.begin.x + x + 0.5) * voxel_m_, (box_.begin.y + y + 0.5) * voxel_m_);
       const VoxelIndex voxel = submap.voxels->voxelAt({place_m.x(), place_m.y(), 0.0});
       const VoxelIndex block = VoxelMap::blockOf(voxel);
       if (of != block) {
@@ -134,7 +131,8 @@ void FlightSpace::addEvidence(const PlacedSubmap& submap) {
               submap.voxels->block({block.x, block.y, box_.begin.z / VoxelBlock::kSide + layer});
       }
       const int offset = VoxelBlock::offsetOf({voxel.x, voxel.y, 0});
-      std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(box_.size.x) + static_cast<std::size_t>(x);
+      std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(box_.size.x) + static_cast<std::size_t>(x);
       for (const VoxelBlock* in : blocks)
         for (int z = 0; z < VoxelBlock::kSide; ++z, at += layer_voxels) {
           if (in == nullptr) continue;

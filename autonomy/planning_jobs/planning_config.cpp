@@ -5,7 +5,9 @@
 namespace swiftlet::autonomy {
 
 void LowerFlightConfig::describe(common::config::Fields& fields) {
-  fields("enabled", enabled, "Whether paths may change their height where the 3D map shows room, and none leads on at the height of flight.");
+  fields(
+      "enabled", enabled,
+      "Whether paths may change their height where the 3D map shows room, and none leads on at the height of flight.");
 }
 
 void PlanningConfig::describe(common::config::Fields& fields) {

@@ -24,9 +24,9 @@ namespace swiftlet::autonomy {
 
 /// The heights at the time of a path request.
 struct FlightHeights {
-  double cruise_m = 1.0;            ///< The height of flight, over the take-off floor.
-  double reference_m = 1.0;         ///< Reference height of the controller.
-  double highest_m = 2.0;       ///< No path leads higher.
+  double cruise_m = 1.0;     ///< The height of flight, over the take-off floor.
+  double reference_m = 1.0;  ///< Reference height of the controller.
+  double highest_m = 2.0;    ///< No path leads higher.
   /// A plan in space is flown, or the vehicle is not yet back at the height of flight after one.
   bool in_space = false;
 

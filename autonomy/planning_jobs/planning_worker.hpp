@@ -47,7 +47,7 @@ struct PlanningAnswer {
   /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
   std::shared_ptr<const SpaceMaps> space;  ///< Of a plan in space, as long as such plans are requested; else null.
-  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; nullopt without a place.
+  std::optional<DetourPlan> detour;        ///< For a DetourRequest; nullopt without a place.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
   /// Where there is no path to the goal, or no frontier is open; nullopt: it is not blocked only for a time.
   std::optional<Blockage> blockage;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/geometry.hpp"
 #include "planning/sampling/reachable_space.hpp"
 #include "planning/sampling/sampling_planner.hpp"
 
@@ -54,6 +55,131 @@ PlanFailure failureOf(const planning::SpacePlanFailure& failure) {
   return result;
 }
 
+/// Half of the length for which a gap is passed along its axis: the hull is straight before it is in the gap.
+constexpr double kAxisHalf_m = 0.6;
+
+bool areFree(const planning::HullSpace& hull, const std::vector<Vector3d>& places) {
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (!hull.isFree(places[i - 1], places[i])) return false;
+  return true;
+}
+
+/// A stretch of a path with less than the full clearance, by the lengths along the path.
+struct Gap {
+  double begin_m = 0.0, end_m = 0.0;
+  Vector3d middle = Vector3d::Zero(), direction = Vector3d::Zero();
+};
+
+/// Those between the ends of the path.
+std::vector<Gap> gapsOf(const planning::HullSpace& hull, const std::vector<Vector3d>& places, double full_m) {
+  constexpr double kStep_m = 0.025;
+  std::vector<Gap> gaps;
+  bool inside = true;  // Where the path begins in a gap, that one is left as it is.
+  bool open = false;
+  double passed_m = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Vector3d line = places[i] - places[i - 1];
+    const double length_m = line.norm();
+    for (double at_m = 0.0; at_m < length_m; at_m += kStep_m) {
+      const Vector3d place = places[i - 1] + at_m / length_m * line;
+      const bool narrow = hull.clearance.at_m(hull.middleOf(place)) < full_m;
+      if (narrow && !inside && !open) {
+        open = true;
+        gaps.push_back({passed_m + at_m, passed_m + at_m, place, line / length_m});
+      } else if (narrow && open) {
+        gaps.back().end_m = passed_m + at_m;
+      } else if (!narrow) {
+        inside = open = false;
+      }
+    }
+    passed_m += length_m;
+  }
+  if (open) gaps.pop_back();  // The path ends in it.
+  return gaps;
+}
+
+Vector3d placeAlong(const std::vector<Vector3d>& places, double along_m) {
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double length_m = (places[i] - places[i - 1]).norm();
+    if (along_m <= length_m && length_m > 0.0) return places[i - 1] + along_m / length_m * (places[i] - places[i - 1]);
+    along_m -= length_m;
+  }
+  return places.back();
+}
+
+/// The line through a gap along which the hull has most room: its first and last place.
+std::pair<Vector3d, Vector3d> axisOf(const planning::HullSpace& hull, const Gap& gap) {
+  constexpr double kTurn_rad = 5.0 * common::kRadPerDeg, kAside_m = 0.025;
+  constexpr int kTurns = 12, kAsides = 6, kSamples = 12;
+  const double heading_rad = std::atan2(gap.direction.y(), gap.direction.x());
+  std::pair<Vector3d, Vector3d> best;
+  double most = -1.0;
+  for (int turn = -kTurns; turn <= kTurns; ++turn)
+    for (int aside = -kAsides; aside <= kAsides; ++aside) {
+      const double yaw_rad = heading_rad + turn * kTurn_rad;
+      const Vector3d along(std::cos(yaw_rad), std::sin(yaw_rad), 0.0), across(-along.y(), along.x(), 0.0);
+      const Vector3d middle = gap.middle + aside * kAside_m * across;
+      const Vector3d from = middle - kAxisHalf_m * along, to = middle + kAxisHalf_m * along;
+      // The least room decides, and of equal ones the mean; voxels make both coarse.
+      double least_m = hull.clearance.reach_m(), sum_m = 0.0;
+      for (int i = 0; i <= kSamples; ++i) {
+        const double room_m = hull.clearance.at_m(hull.middleOf(from + (to - from) * i / kSamples));
+        least_m = std::min(least_m, room_m);
+        sum_m += room_m;
+      }
+      const double score = least_m + 0.1 * sum_m / (kSamples + 1) - 1e-4 * (std::abs(turn) + std::abs(aside));
+      if (score <= most) continue;
+      most = score;
+      best = {from, to};
+    }
+  return best;
+}
+
+/// Moves a level line to the middle between what is above and below it.
+void centreLine(const planning::HullSpace& hull, Vector3d& from, Vector3d& to) {
+  constexpr double kStep_m = 0.025, kReach_m = 0.4;
+  const auto roomTowards = [&](double sign) {
+    double room_m = 0.0;
+    while (room_m < kReach_m) {
+      const Vector3d off = sign * (room_m + kStep_m) * Vector3d::UnitZ();
+      if (!hull.isFree(from + off, to + off)) break;
+      room_m += kStep_m;
+    }
+    return room_m;
+  };
+  const double up_m = 0.5 * (roomTowards(1.0) - roomTowards(-1.0));
+  from.z() += up_m;
+  to.z() += up_m;
+}
+
+/// Where a path has less than the full clearance it grazes one side: gaps are passed in their middle and along their
+/// axis, where that is free.
+std::vector<Vector3d> alongAxes(const planning::HullSpace& hull, const std::vector<Vector3d>& places, double full_m) {
+  std::vector<Vector3d> result = places;
+  std::vector<Gap> gaps = gapsOf(hull, places, full_m);
+  std::reverse(gaps.begin(), gaps.end());  // From the last one on the lengths before it stay.
+  for (Gap& gap : gaps) {
+    gap.middle = placeAlong(result, 0.5 * (gap.begin_m + gap.end_m));
+    auto [from, to] = axisOf(hull, gap);
+    if (!hull.isFree(from, to)) continue;
+    centreLine(hull, from, to);
+    std::vector<Vector3d> changed;
+    double passed_m = 0.0;
+    bool inserted = false;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      if (i > 0) passed_m += (result[i] - result[i - 1]).norm();
+      const bool before = passed_m<gap.begin_m - kAxisHalf_m, after = passed_m> gap.end_m + kAxisHalf_m;
+      if (!before && !inserted && (after || i + 1 == result.size())) {
+        changed.insert(changed.end(), {from, to});
+        inserted = true;
+      }
+      if (before || after || i == 0 || i + 1 == result.size()) changed.push_back(result[i]);
+    }
+    if (areFree(hull, changed)) result = std::move(changed);
+  }
+  return result;
+}
+
 }  // namespace
 
 tl::expected<planning::Path, PlanFailure> SpacePlanner::plan(const PlanningRequest& request, const GoalRequest& goal,
@@ -65,8 +191,8 @@ tl::expected<planning::Path, PlanFailure> SpacePlanner::plan(const PlanningReque
   const planning::HullSpace& hull = maps_->hull;
   const auto place = goalPlace(goal);
   if (!place)
-    return tl::make_unexpected(PlanFailure{PlanFailure::Reason::kGoalUnseen,
-                                           "goal " + request.names.of(goal.goal_map_m) + " is free at no height", {}});
+    return tl::make_unexpected(PlanFailure{
+        PlanFailure::Reason::kGoalUnseen, "goal " + request.names.of(goal.goal_map_m) + " is free at no height", {}});
   const Eigen::Vector2d here_map_m = request.T_map_body.position_m();
   const Vector3d start(here_map_m.x(), here_map_m.y(), goal.height.reference_m);
   std::optional<Vector3d> left;
@@ -76,22 +202,34 @@ tl::expected<planning::Path, PlanFailure> SpacePlanner::plan(const PlanningReque
   }
   planning::SpacePlanFailure failure;
   ++plans_;
-  for (const double radius_m : {request.footprint.radius_m(), hull.radius_m}) {
-    const auto path = planning::planBySampling(hull.clearance, hull.middleOf(left.value_or(start)),
-                                               hull.middleOf(*place), radius_m, plans_, {kIterations, true});
+  const auto planTo = [&](const Vector3d& end, double radius_m) -> std::optional<planning::Path> {
+    const auto path = planning::planBySampling(hull.clearance, hull.middleOf(left.value_or(start)), hull.middleOf(end),
+                                               radius_m, plans_, {kIterations, true});
     if (!path) {
       failure = path.error();
-      continue;
+      return std::nullopt;
     }
     std::vector<Vector3d> places = path->points_map_m;
     for (Vector3d& point : places) point.z() -= hull.middle_m;
     places.front() = left.value_or(start);  // Exactly, without the rounding of the middle.
-    places.back() = *place;
+    places.back() = end;
+    places = alongAxes(hull, places, request.footprint.radius_m());
     if (left) places.insert(places.begin(), start);
     planning::Path flown = pathThrough(std::move(places), goal.height);
     flown.escape_points = left ? 1 : 0;
     return flown;
-  }
+  };
+  for (const double radius_m : {request.footprint.radius_m(), hull.radius_m})
+    if (auto path = planTo(*place, radius_m)) return *std::move(path);
+  // Another height of the goal may be reached: behind a window what is nearest to the height of flight may be seen, and
+  // the way down to it not.
+  const planning::ReachableSpace reachable(hull.clearance, hull.middleOf(left.value_or(start)), hull.radius_m);
+  for (double off_m = 0.0; off_m <= kGoalReach_m; off_m += kGoalStep_m)
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3d end(place->x(), place->y(), goal.height.cruise_m + sign * off_m);
+      if (end.z() > goal.height.highest_m || !hull.isFree(end) || !reachable.reaches(hull.middleOf(end))) continue;
+      if (auto path = planTo(end, hull.radius_m)) return *std::move(path);
+    }
   return tl::make_unexpected(failureOf(failure));
 }
 
@@ -150,7 +288,8 @@ planning::Path SpacePlanner::pathThrough(std::vector<Vector3d> places, const Fli
   return path;
 }
 
-/// Shortcuts graze what they pass: each stretch at another height goes to the middle between what is above and below it.
+/// Shortcuts graze what they pass: each stretch at another height goes to the middle between what is above and below
+/// it.
 std::vector<Vector3d> SpacePlanner::centred(std::vector<Vector3d> places, double cruise_m) const {
   constexpr double kStep_m = 0.025, kReach_m = 0.3;
   const planning::HullSpace& hull = maps_->hull;

@@ -1,7 +1,9 @@
 // Paths at any height: where no path leads to a goal at the height of flight, the vehicle flies through windows and
-// gaps, below beams and over furniture, wherever the 3D map shows room for the hull. A laser alone cannot see that room.
+// gaps, below beams and over furniture, wherever the 3D map shows room for the hull. A laser alone cannot see that
+// room.
 //
-//   FlightSpace --> planBySampling, with the full clearance or else half --> changes of height near where they are needed
+//   FlightSpace --> planBySampling, with the full clearance or else half --> changes of height near where they are
+//   needed
 #pragma once
 
 #include <cstdint>

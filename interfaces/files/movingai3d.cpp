@@ -46,8 +46,9 @@ VoxelIndex sizeOf(const LineReader& reader, const std::vector<Word>& words) {
     voxels *= sides[i];
   }
   if (!(voxels <= kMostListedVoxels))
-    throw reader.problemAt(words[1].column, "voxel",
-                           Message("movingai.voxels", "has {:.1e} voxels, more than {:.0e}", voxels, kMostListedVoxels));
+    throw reader.problemAt(
+        words[1].column, "voxel",
+        Message("movingai.voxels", "has {:.1e} voxels, more than {:.0e}", voxels, kMostListedVoxels));
   return {static_cast<int>(sides[0]), static_cast<int>(sides[1]), static_cast<int>(sides[2])};
 }
 

@@ -1,5 +1,5 @@
-// Voxel maps and path problems of the Moving AI benchmarks, plain or compressed by gzip, bzip2 or xz. Paths go to the 26
-// neighbours and cut no corners.
+// Voxel maps and path problems of the Moving AI benchmarks, plain or compressed by gzip, bzip2 or xz. Paths go to the
+// 26 neighbours and cut no corners.
 #pragma once
 
 #include <filesystem>

@@ -111,8 +111,14 @@ PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
   return rest;
 }
 
-/// The cost of the rest is its share of the length. It may begin where the hull is not free, and leave that.
+/// The cost of the rest is its share of the length. It may begin where the hull is not free, and leave that. A plan
+/// through a gap is kept with half a voxel less than it was made with: the edge of a gap comes and goes by a voxel.
 PlanKeeper::Rest PlanKeeper::restInSpace(const PlanMaps& maps) const {
+  const HullSpace& space = *maps.space;
+  const double radius_m = space.radius_m - 0.5 * space.clearance.resolution_m();
+  const auto isFree = [&](const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m) {
+    return space.clearance.isFree(space.middleOf(from_m), space.middleOf(to_m), radius_m);
+  };
   const std::vector<Point> points_m = remaining();
   const auto heightOf = [&](std::size_t point) {
     if (point > 0) return path_->heights_m[segment_ + point];
@@ -123,13 +129,13 @@ PlanKeeper::Rest PlanKeeper::restInSpace(const PlanMaps& maps) const {
     return Eigen::Vector3d(points_m[point].x(), points_m[point].y(), heightOf(point));
   };
   Rest rest;
-  bool leaving = !maps.space->isFree(placeOf(0));
+  bool leaving = !isFree(placeOf(0), placeOf(0));
   double length_m = 0.0;
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     const Eigen::Vector3d from = placeOf(i - 1), to = placeOf(i);
     length_m += (to - from).norm();
     const bool may_leave = std::exchange(leaving, false) || i <= remainingEscape();
-    if (may_leave ? maps.space->isFree(to) : maps.space->isFree(from, to)) continue;
+    if (may_leave ? isFree(to, to) : isFree(from, to)) continue;
     rest.blocked_map_m = points_m[i];
     return rest;
   }

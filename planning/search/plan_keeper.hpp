@@ -17,7 +17,7 @@ namespace swiftlet::planning {
 
 /// The cost maps by which a plan is judged.
 struct PlanMaps {
-  const CostMap& costs;               ///< Of the height of flight.
+  const CostMap& costs;              ///< Of the height of flight.
   const HullSpace* space = nullptr;  ///< Judges plans in space; null: such plans are not offered.
 
   // Implicit, as most plans are flown at one height.

@@ -8,7 +8,8 @@
 namespace swiftlet::planning {
 
 void PlannerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"dstar_lite", "wavefront", "sampling"}, "Who finds the paths to goals and to viewpoints.");
+  fields.choice("kind", kind, {"dstar_lite", "wavefront", "sampling"},
+                "Who finds the paths to goals and to viewpoints.");
 }
 
 std::unique_ptr<Planner> makePlanner(const PlannerConfig& config) {

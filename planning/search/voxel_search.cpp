@@ -67,7 +67,8 @@ struct OpenVoxel {
 
 VoxelGrid::VoxelGrid(VoxelIndex size)
     : size_(size),
-      blocked_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z)) {}
+      blocked_(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z)) {
+}
 
 VoxelSearch::VoxelSearch(const VoxelGrid& grid) : grid_(grid) {
   const auto pages = [](int side) { return (side >> kPageBits) + 1; };

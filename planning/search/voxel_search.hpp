@@ -1,5 +1,5 @@
-// Shortest paths over the voxels of a box, without a hull: A* with octile costs (Hart, Nilsson and Raphael 1968). It says
-// what the optimum is of problems whose published lengths are of this kind (Moving AI benchmarks, 3D maps).
+// Shortest paths over the voxels of a box, without a hull: A* with octile costs (Hart, Nilsson and Raphael 1968). It
+// says what the optimum is of problems whose published lengths are of this kind (Moving AI benchmarks, 3D maps).
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,8 @@ struct VoxelPath {
   double length = 0.0;                     ///< In voxels: a step costs 1, the root of 2 or the root of 3.
 };
 
-/// Moves to the 26 neighbours; none cuts a corner: all voxels of the smallest box around both ends are free. It keeps its
-/// memory between calls, in proportion to the voxels that were reached. One thread.
+/// Moves to the 26 neighbours; none cuts a corner: all voxels of the smallest box around both ends are free. It keeps
+/// its memory between calls, in proportion to the voxels that were reached. One thread.
 class VoxelSearch {
  public:
   /// `grid` must outlive it.

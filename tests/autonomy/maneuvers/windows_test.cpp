@@ -1,5 +1,5 @@
-// Two walls across the room, each with a window, at heights that no plane joins: the vehicle changes its height for each
-// where the voxels show room.
+// Two walls across the room, each with a window, at heights that no plane joins: the vehicle changes its height for
+// each where the voxels show room.
 #include <algorithm>
 #include <cmath>
 
