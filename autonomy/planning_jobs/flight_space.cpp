@@ -33,7 +33,7 @@ constexpr double kLeastBottom_m = 0.20;
 /// hull it lifts by less than a voxel and a half, for which there is room above.
 constexpr double kAirBelowHull_m = 0.20, kAirAboveHull_m = 0.10;
 /// Of a hull that flies at one height: as far as it rises and sinks.
-constexpr double kSway_m = 0.10;
+constexpr double kHullSways_m = 0.10;
 /// Of the grid at the height at which the vehicle is: farther than the reactive layer looks.
 constexpr double kGridReach_m = 3.0;
 /// Where the camera saw free space, it is as certain as by some beams of the laser.
@@ -269,7 +269,7 @@ FlightSpace::State FlightSpace::stateAt(const VoxelIndex& voxel) const {
 
 common::OccupancyGrid FlightSpace::gridAt(double height_m, const Vector2d& around_map_m, double resolution_m) const {
   common::OccupancyGrid grid = common::makeOccupancyGrid(resolution_m);
-  const double half_m = 0.5 * hull_height_m_ + kSway_m;
+  const double half_m = 0.5 * hull_height_m_ + kHullSways_m;
   const int low = voxelAt({0.0, 0.0, std::max(height_m - half_m, kFloorVoxels_m)}).z,
             high = voxelAt({0.0, 0.0, height_m + half_m}).z;
   const common::CellIndex center = grid.cellAt(around_map_m);

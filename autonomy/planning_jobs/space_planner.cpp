@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using planning::PlanFailure;
 
 /// Iterations of RRT-Connect: a hundred times what a room with two windows takes; then the reachable cells are asked.
-constexpr int kIterations = 4000;
+constexpr int kTreeIterations = 4000;
 /// A hull that stands too near to something leaves it for a free place this near.
 constexpr double kLeaves_m = 0.5;
 /// Heights of the goal are tried in these steps, up to this far from the height of flight.
@@ -27,7 +27,7 @@ constexpr double kOtherEnd_m = 2.0;
 /// A metre at another height costs half as much again: there the laser does not draw the map.
 constexpr double kOtherHeightShare = 0.5;
 /// Heights that differ by less are the same.
-constexpr double kSameHeight_m = 0.03;
+constexpr double kSameAsCruise_m = 0.03;
 /// A change of height is made at the least of these distances before the place that needs it: on the spot, or on a
 /// slope where the camera saw no more.
 constexpr std::array kBeforeNeed_m{0.0, 0.3, 0.6, 1.0, 1.5, 2.0, 3.0};
@@ -72,7 +72,7 @@ struct Gap {
 
 /// Those between the ends of the path.
 std::vector<Gap> gapsOf(const planning::HullSpace& hull, const std::vector<Vector3d>& places, double full_m) {
-  constexpr double kStep_m = 0.025;
+  constexpr double kShifted_m = 0.025;
   std::vector<Gap> gaps;
   bool inside = true;  // Where the path begins in a gap, that one is left as it is.
   bool open = false;
@@ -80,7 +80,7 @@ std::vector<Gap> gapsOf(const planning::HullSpace& hull, const std::vector<Vecto
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Vector3d line = places[i] - places[i - 1];
     const double length_m = line.norm();
-    for (double at_m = 0.0; at_m < length_m; at_m += kStep_m) {
+    for (double at_m = 0.0; at_m < length_m; at_m += kShifted_m) {
       const Vector3d place = places[i - 1] + at_m / length_m * line;
       const bool narrow = hull.clearance.at_m(hull.middleOf(place)) < full_m;
       if (narrow && !inside && !open) {
@@ -137,13 +137,13 @@ std::pair<Vector3d, Vector3d> axisOf(const planning::HullSpace& hull, const Gap&
 
 /// Moves a level line to the middle between what is above and below it.
 void centreLine(const planning::HullSpace& hull, Vector3d& from, Vector3d& to) {
-  constexpr double kStep_m = 0.025, kReach_m = 0.4;
+  constexpr double kShifted_m = 0.025, kShiftReach_m = 0.4;
   const auto roomTowards = [&](double sign) {
     double room_m = 0.0;
-    while (room_m < kReach_m) {
-      const Vector3d off = sign * (room_m + kStep_m) * Vector3d::UnitZ();
+    while (room_m < kShiftReach_m) {
+      const Vector3d off = sign * (room_m + kShifted_m) * Vector3d::UnitZ();
       if (!hull.isFree(from + off, to + off)) break;
-      room_m += kStep_m;
+      room_m += kShifted_m;
     }
     return room_m;
   };
@@ -204,7 +204,7 @@ tl::expected<planning::Path, PlanFailure> SpacePlanner::plan(const PlanningReque
   ++plans_;
   const auto planTo = [&](const Vector3d& end, double radius_m) -> std::optional<planning::Path> {
     const auto path = planning::planBySampling(hull.clearance, hull.middleOf(left.value_or(start)), hull.middleOf(end),
-                                               radius_m, plans_, {kIterations, true});
+                                               radius_m, plans_, {kTreeIterations, true});
     if (!path) {
       failure = path.error();
       return std::nullopt;
@@ -269,7 +269,7 @@ bool SpacePlanner::isFree(const std::vector<Vector3d>& places) const {
 }
 
 planning::Path SpacePlanner::pathThrough(std::vector<Vector3d> places, const FlightHeights& heights) const {
-  const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - heights.cruise_m) > kSameHeight_m; };
+  const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - heights.cruise_m) > kSameAsCruise_m; };
   for (std::size_t i = 1; i < places.size(); ++i)
     if (!isOther(places[i])) places[i].z() = heights.cruise_m;
   std::vector<Vector3d> flown = withLateChanges(centred(places, heights.cruise_m), heights.cruise_m);
@@ -291,10 +291,10 @@ planning::Path SpacePlanner::pathThrough(std::vector<Vector3d> places, const Fli
 /// Shortcuts graze what they pass: each stretch at another height goes to the middle between what is above and below
 /// it.
 std::vector<Vector3d> SpacePlanner::centred(std::vector<Vector3d> places, double cruise_m) const {
-  constexpr double kStep_m = 0.025, kReach_m = 0.3;
+  constexpr double kShifted_m = 0.025, kShiftReach_m = 0.3;
   const planning::HullSpace& hull = maps_->hull;
   const auto isInner = [&](std::size_t i) {
-    return i > 0 && i + 1 < places.size() && std::abs(places[i].z() - cruise_m) > kSameHeight_m;
+    return i > 0 && i + 1 < places.size() && std::abs(places[i].z() - cruise_m) > kSameAsCruise_m;
   };
   for (std::size_t begin = 1, end = 1; begin + 1 < places.size(); begin = std::max(begin + 1, end)) {
     for (end = begin; isInner(end);) ++end;
@@ -308,7 +308,7 @@ std::vector<Vector3d> SpacePlanner::centred(std::vector<Vector3d> places, double
           if (!hull.isFree(places[i - 1] + off, places[i] + off)) return false;
         return true;
       };
-      while (room_m < kReach_m && isFree(room_m + kStep_m)) room_m += kStep_m;
+      while (room_m < kShiftReach_m && isFree(room_m + kShifted_m)) room_m += kShifted_m;
       return room_m;
     };
     const double up_m = 0.5 * (roomTowards(1.0) - roomTowards(-1.0));
@@ -322,7 +322,7 @@ std::vector<Vector3d> SpacePlanner::centred(std::vector<Vector3d> places, double
 /// camera has not seen enough for that.
 std::vector<Vector3d> SpacePlanner::withLateChanges(const std::vector<Vector3d>& places, double cruise_m) const {
   const planning::HullSpace& hull = maps_->hull;
-  const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - cruise_m) > kSameHeight_m; };
+  const auto isOther = [&](const Vector3d& place) { return std::abs(place.z() - cruise_m) > kSameAsCruise_m; };
   /// The places between `cruise` and `other` where the height changes; none to change it along all of the line.
   const auto change = [&](const Vector3d& cruise, const Vector3d& other) -> std::vector<Vector3d> {
     const double planar_m = (other - cruise).head<2>().norm();

@@ -33,7 +33,7 @@ VoxelIndex voxelOf(const LineFields& fields, std::size_t field, const VoxelIndex
   return {whole(field, size.x), whole(field + 1, size.y), whole(field + 2, size.z)};
 }
 
-VoxelIndex sizeOf(const LineReader& reader, const std::vector<Word>& words) {
+VoxelIndex voxelMapSize(const LineReader& reader, const std::vector<Word>& words) {
   constexpr const char* kHeader = "a voxel map begins with `voxel 100 100 50`, its sides";
   if (words.size() != 4 || words[0].text != "voxel")
     throw reader.problemAt(1, "", Message("movingai.no-voxels", "is no header of a voxel map"), kHeader);
@@ -56,7 +56,7 @@ VoxelListing readListingFrom(LineReader reader) {
   std::vector<Word> words;
   if (!nextWords(reader, words))
     throw reader.problemAt(0, "", Message("movingai.no-voxels", "is no header of a voxel map"));
-  VoxelListing map{sizeOf(reader, words), {}};
+  VoxelListing map{voxelMapSize(reader, words), {}};
   while (nextWords(reader, words))
     map.blocked.push_back(voxelOf(LineFields(reader, words, listedFormat()), 0, map.size));
   return map;

@@ -42,7 +42,7 @@ struct WallWithAWindow {
   std::shared_ptr<const common::Map3dLayer> layer;
 };
 
-PlanningConfig config(planning::PlannerKind kind = planning::PlannerKind::kDStarLite, bool enabled = true) {
+PlanningConfig spaceConfig(planning::PlannerKind kind = planning::PlannerKind::kDStarLite, bool enabled = true) {
   PlanningConfig config;
   config.planner.kind = kind;
   config.lower.enabled = enabled;
@@ -51,7 +51,7 @@ PlanningConfig config(planning::PlannerKind kind = planning::PlannerKind::kDStar
 
 TEST(SpacePlanner, LeadsThroughAWindowAndBackToTheHeightOfFlight) {
   const WallWithAWindow scene;
-  PlanningWorker worker(config(), 0.05);
+  PlanningWorker worker(spaceConfig(), 0.05);
   const PlanningAnswer answer = worker.answer(scene.request(1.0, 1.0));
   ASSERT_TRUE(answer.path && *answer.path) << answer.path->error().text;
   const planning::Path& path = **answer.path;
@@ -75,7 +75,7 @@ TEST(SpacePlanner, LeadsThroughAWindowAndBackToTheHeightOfFlight) {
 
 TEST(SpacePlanner, ChangesTheHeightOnlyNearTheWindow) {
   const WallWithAWindow scene;
-  PlanningWorker worker(config(), 0.05);
+  PlanningWorker worker(spaceConfig(), 0.05);
   const PlanningAnswer answer = worker.answer(scene.request(1.0, 1.0));
   ASSERT_TRUE(answer.path && *answer.path);
   const planning::Path& path = **answer.path;
@@ -88,14 +88,14 @@ TEST(SpacePlanner, ChangesTheHeightOnlyNearTheWindow) {
 
 TEST(SpacePlanner, NotEnabledThereIsNoPath) {
   const WallWithAWindow scene;
-  PlanningWorker worker(config(planning::PlannerKind::kDStarLite, false), 0.05);
+  PlanningWorker worker(spaceConfig(planning::PlannerKind::kDStarLite, false), 0.05);
   const PlanningAnswer answer = worker.answer(scene.request(1.0, 1.0));
   EXPECT_TRUE(answer.path && !*answer.path);
 }
 
 TEST(SpacePlanner, AVehicleInTheWindowPlansOnFromItsHeightAndKnowsTheMapThere) {
   const WallWithAWindow scene;
-  PlanningWorker worker(config(), 0.05);
+  PlanningWorker worker(spaceConfig(), 0.05);
   const PlanningAnswer answer = worker.answer(scene.request(3.07, 1.5));
   ASSERT_TRUE(answer.path && *answer.path) << answer.path->error().text;
   EXPECT_EQ((*answer.path)->heights_m.front(), 1.5);
@@ -109,7 +109,7 @@ TEST(SpacePlanner, AGoalThatNobodyHasSeenIsRefused) {
   WallWithAWindow scene;
   PlanningRequest request = scene.request(1.0, 1.0);
   std::get<GoalRequest>(request.question).goal_map_m = {40.0, 2.0};
-  PlanningWorker worker(config(), 0.05);
+  PlanningWorker worker(spaceConfig(), 0.05);
   const PlanningAnswer answer = worker.answer(request);
   EXPECT_TRUE(answer.path && !*answer.path);
 }
@@ -117,7 +117,7 @@ TEST(SpacePlanner, AGoalThatNobodyHasSeenIsRefused) {
 TEST(SpacePlanner, TheSamplingPlannerPrefersAShorterPathInSpace) {
   WallWithAWindow scene;
   fill(scene.grid, {{60, 1}, {63, 18}}, planning::test::kFreeCell);  // A door at the side, 3 m longer.
-  PlanningWorker plane(config(), 0.05), space(config(planning::PlannerKind::kSampling), 0.05);
+  PlanningWorker plane(spaceConfig(), 0.05), space(spaceConfig(planning::PlannerKind::kSampling), 0.05);
   const PlanningAnswer around = plane.answer(scene.request(1.0, 1.0)), through = space.answer(scene.request(1.0, 1.0));
   ASSERT_TRUE(around.path && *around.path && through.path && *through.path);
   EXPECT_FALSE((*around.path)->isInSpace());
@@ -127,7 +127,7 @@ TEST(SpacePlanner, TheSamplingPlannerPrefersAShorterPathInSpace) {
 TEST(SpacePlanner, PlansTheSameInTwoThreadsAtOnce) {
   const WallWithAWindow scene;
   const auto plans = [&](std::vector<planning::Path>& paths) {
-    PlanningWorker worker(config(), 0.05);
+    PlanningWorker worker(spaceConfig(), 0.05);
     for (int i = 0; i < 4; ++i) {
       const PlanningAnswer answer = worker.answer(scene.request(1.0 + 0.1 * i, 1.0));
       paths.push_back(answer.path && *answer.path ? **answer.path : planning::Path{});
