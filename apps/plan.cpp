@@ -41,6 +41,7 @@ struct PlanOptions {
   std::string from, to;
   std::string planner;
   std::string problems;
+  int drawn = 0;
   std::string system = "swiftlet";
   std::string out;
   double clearance_m = 0.10;
@@ -155,7 +156,7 @@ int plan(PlanOptions& options) {
   if (!options.problems.empty()) {
     if (!options.from.empty() || !options.to.empty() || !options.planner.empty() || !options.out.empty())
       throw InputError({}, "--problems", Message("plan.problems-alone", "goes with no place, planner or picture"));
-    return planProblems({options.map.from, options.problems, options.json});
+    return planProblems({options.map.from, options.problems, options.drawn, options.seed, options.json});
   }
   for (const auto& [option, text] : {std::pair{"--from", &options.from}, {"--to", &options.to}})
     if (text->empty()) throw InputError({}, option, Message("plan.place-missing", "is missing"), "give it as \"x;y\"");
@@ -181,7 +182,7 @@ void addPlan(Command& program) {
                  "Between the hull and what is in the way, in metres.");
   command.option("--system", options->system, "Profile of the vehicle whose hull is planned for.");
   command.option("--out", options->out, "Picture of the path, .png.");
-  command.option("--seed", options->seed, {0, 1e9}, "Of the samples.");
+  command.option("--seed", options->seed, {0, 1e9}, "Of the samples, or of the problems that are drawn.");
   command.option("--resolution", options->map.resolution_m, {0.01, 2.0},
                  "Side of the voxels that a cloud becomes, in metres, chosen from the distance of its points when not "
                  "given; of the cells of a grid, 1 when not given.");
@@ -189,8 +190,9 @@ void addPlan(Command& program) {
                  "Metres in one unit of a cloud's coordinates: 0.001 if they are in millimetres. 1 when not given.");
   command.option(
       "--problems", options->problems,
-      "A .scen of the Moving AI benchmarks for a .map: plan each by D* Lite with octile costs and no hull, and "
-      "compare the lengths with the optimal ones.");
+      "A .scen of the Moving AI benchmarks for a .map, or a .3dscen for a .3dmap: plan each with octile costs and no "
+      "hull, by D* Lite or over voxels by A*, and compare the lengths with the optimal ones.");
+  command.option("--drawn", options->drawn, {0, 1e6}, "Solve so many of the problems, drawn by --seed; all when 0.");
   command.flag("--json", options->json, "Print the result as JSON, nothing else.");
   command.footer(
       "What is unknown is not free. Without a path it says why and what is the nearest place, and exits with 1.\n\n"

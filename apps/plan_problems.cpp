@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -13,9 +15,14 @@
 #include "apps/map_kind.hpp"
 #include "apps/show.hpp"
 #include "common/error.hpp"
+#include "common/lower_case.hpp"
+#include "common/random.hpp"
 #include "flight/wall_clock.hpp"
 #include "interfaces/files/movingai.hpp"
+#include "interfaces/files/movingai3d.hpp"
+#include "interfaces/files/unpacked_stream.hpp"
 #include "planning/search/dstar_lite.hpp"
+#include "planning/search/voxel_search.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -54,6 +61,43 @@ planning::CostMap plainMap(const common::OccupancyGrid& grid) {
   return map;
 }
 
+/// So many of them, drawn by the seed, in their order; all for 0.
+template <typename Problem>
+std::vector<Problem> drawn(std::vector<Problem> problems, const PlanProblemsOptions& options) {
+  const auto wanted = static_cast<std::size_t>(options.drawn);
+  if (wanted == 0 || wanted >= problems.size()) return problems;
+  common::RandomStream random(static_cast<std::uint64_t>(options.seed), "plan problems");
+  std::vector<Problem> taken;
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const std::size_t left = problems.size() - i;
+    if (random.uniform() * static_cast<double>(left) < static_cast<double>(wanted - taken.size()))
+      taken.push_back(problems[i]);
+  }
+  return taken;
+}
+
+/// A problem of no length is from a cell to itself.
+void compare(ProblemsReport& report, int line, bool found, double length, double optimal_length) {
+  if (!found || std::abs(length - optimal_length) > kRoundedTo * std::max(1.0, optimal_length))
+    report.odd.push_back({line, length, optimal_length});
+}
+
+ProblemsReport solve(const interfaces::VoxelListing& map, const std::vector<interfaces::VoxelProblem>& problems) {
+  planning::VoxelGrid grid(map.size);
+  for (const common::VoxelIndex& voxel : map.blocked) grid.block(voxel);
+  planning::VoxelSearch search(grid);
+  ProblemsReport report;
+  report.problems = problems.size();
+  const auto begin = flight::Clock::now();
+  for (const interfaces::VoxelProblem& problem : problems) {
+    const auto path = search.plan(problem.start, problem.goal);
+    report.nodes += search.expansions();
+    compare(report, problem.line, path.has_value(), path ? path->length : 0.0, problem.optimal_length);
+  }
+  report.seconds = flight::secondsSince(begin);
+  return report;
+}
+
 ProblemsReport solve(const interfaces::OctileMap& map, const std::vector<interfaces::GridProblem>& problems) {
   const planning::CostMap costs = plainMap(map.grid);
   planning::DStarLite planner(planning::kOctileScale);
@@ -65,9 +109,7 @@ ProblemsReport solve(const interfaces::OctileMap& map, const std::vector<interfa
                                         costs.centerOf(map.cellAt(problem.goal_column, problem.goal_row)));
     report.nodes += static_cast<std::size_t>(planner.expansions());
     const double length = plan && plan->escape_cells == 0 ? octileLength(plan->cells) : 0.0;
-    // A problem of no length is from a cell to itself.
-    if (std::abs(length - problem.optimal_length) > kRoundedTo * std::max(1.0, problem.optimal_length) || !plan)
-      report.odd.push_back({problem.line, length, problem.optimal_length});
+    compare(report, problem.line, plan.has_value(), length, problem.optimal_length);
   }
   report.seconds = flight::secondsSince(begin);
   return report;
@@ -96,15 +138,31 @@ std::string problemsText(const ProblemsReport& report, const PlanProblemsOptions
 
 }  // namespace
 
-int planProblems(const PlanProblemsOptions& options) {
-  if (mapKindOf(options.map) != MapKind::kGrid)
-    throw common::InputError({options.map}, "",
-                             common::Message("plan.no-grid", "is no .map of the Moving AI benchmarks"));
-  const interfaces::OctileMap map = interfaces::readOctileMap(options.map, 1.0);
-  const auto problems = interfaces::readGridProblems(options.problems, map.width, map.height);
+namespace {
+
+template <typename Problem>
+std::vector<Problem> chosen(std::vector<Problem> problems, const PlanProblemsOptions& options) {
   if (problems.empty())
     throw common::InputError({options.problems}, "--problems", common::Message("plan.no-problems", "has no problem"));
-  const ProblemsReport report = solve(map, problems);
+  return drawn(std::move(problems), options);
+}
+
+ProblemsReport solved(const PlanProblemsOptions& options) {
+  if (common::endingOf(interfaces::unpackedName(options.map)) == ".3dmap") {
+    const interfaces::VoxelListing map = interfaces::readVoxelListing(options.map);
+    return solve(map, chosen(interfaces::readVoxelProblems(options.problems, map.size), options));
+  }
+  if (mapKindOf(options.map) != MapKind::kGrid)
+    throw common::InputError({options.map}, "",
+                             common::Message("plan.no-grid", "is no .map or .3dmap of the Moving AI benchmarks"));
+  const interfaces::OctileMap map = interfaces::readOctileMap(options.map, 1.0);
+  return solve(map, chosen(interfaces::readGridProblems(options.problems, map.width, map.height), options));
+}
+
+}  // namespace
+
+int planProblems(const PlanProblemsOptions& options) {
+  const ProblemsReport report = solved(options);
   if (options.json)
     showJson(problemsJson(report, options));
   else

@@ -1,4 +1,4 @@
-// Path problems with known optimal lengths, solved by D* Lite.
+// Path problems with known optimal lengths, solved by D* Lite in the plane and by A* over voxels.
 #pragma once
 
 #include <string>
@@ -6,8 +6,10 @@
 namespace swiftlet::apps {
 
 struct PlanProblemsOptions {
-  std::string map;       ///< A .map of the Moving AI benchmarks.
-  std::string problems;  ///< Its .scen.
+  std::string map;       ///< A .map of the Moving AI benchmarks, or a .3dmap.
+  std::string problems;  ///< Its .scen or .3dscen.
+  int drawn = 0;         ///< Problems that are drawn evenly by the seed; 0: all are solved.
+  int seed = 0;
   bool json = false;
 };
 

@@ -63,7 +63,7 @@ void Executor::tick(const common::Intent& intent, const ManeuverInput& input) {
     if (const auto walking_map_m = nearestWalking_map_m(input)) memory_.person_map_m = walking_map_m;
   if (intent.id != intent_.id) begin(intent);
   const PathFlight* flight = aim().flight;
-  rememberLowered(memory_, flight ? flight->plan() : nullptr, controller_, state_);
+  rememberHeights(memory_, flight ? flight->plan() : nullptr, controller_, state_);
   if (maneuver_) note(maneuver_->step(input));
   if (desk_.due(now_)) desk_.ask(planningRequest(input, client(), {}, aim().left_out), now_);
   status_.released = controller_.stopped() && !retreat_.active();

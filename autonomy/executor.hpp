@@ -46,7 +46,7 @@ class Executor {
   /// From where the vehicle can stop to the place near it that is farthest from the walls; zero without a map. See
   /// FlightController::setEscape.
   Eigen::Vector2d escape_map_m(const common::VehicleState& state) const;
-  /// How much lower than its paths' height the vehicle flies, below something; else 0.
+  /// How much lower than its paths' height the vehicle flies, on a path in space; negative above, else 0.
   double dip_m() const { return autonomy::dip_m(memory_, controller_); }
   /// The newest cost map of the height at which the vehicle is; null before the first.
   std::shared_ptr<const planning::CostMap> costMapHere() const {

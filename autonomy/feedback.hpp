@@ -19,7 +19,7 @@ struct GivenMapOrder {
 
 struct Feedback {
   bool airborne = false;  ///< Otherwise the vehicle stands still.
-  /// How much lower than the height of the map the vehicle flies, below something that hangs over its path.
+  /// How much lower than the height of the map the vehicle flies, on a path in space; negative above.
   double below_map_m = 0.0;
   /// Elsewhere scans are not compared with the given map, because near the floor the laser sees other objects.
   bool at_flight_height = false;

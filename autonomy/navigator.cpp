@@ -39,7 +39,7 @@ Navigator::Navigator(const AutonomyConfig& config, const AutonomySetup& setup, c
                 camera_ ? &*camera_ : nullptr),
       reactive_(config.reactive, setup.vehicle.hullRadius_m()),
       camera_obstacles_(setup.vehicle.hull_height_m),
-      lower_obstacles_(setup.vehicle.hull_height_m),
+      obstacles_here_(setup.vehicle.hull_height_m),
       assist_(config.assist, setup.vehicle.max_tilt_deg, config.reactive.avoidance),
       readiness_(log) {
   flown_.thrust_margin = controller_.thrust().margin();
@@ -74,7 +74,7 @@ void Navigator::react(const Percept& percept, const KeepOutZones& keep_out) {
     executor_.react(decision, seen.state);
     laser_points_ = pointsOf(outcome);
     camera_obstacles_.forget(outcome.gone);
-    if (executor_.dip_m() > 0.0) lower_obstacles_.forget(outcome.gone);
+    if (executor_.dip_m() != 0.0) obstacles_here_.forget(outcome.gone);
   }
 }
 
@@ -101,14 +101,14 @@ void Navigator::carryOut(const Decision& decision, const Percept& percept, const
   restMotors(decision, percept.now);
 }
 
-/// Paths are planned at the height of flight, also while the vehicle is below something; what it brakes for is at its
-/// own height.
+/// Paths are planned at the height of flight, also while the vehicle is at another one; what it brakes for is at
+/// its own height.
 void Navigator::updateCameraObstacles(const Percept& percept) {
   const Surroundings& around = *percept.around;
   const Eigen::Vector3d body_map_m = percept.state.T_map_body().position_m;
   const double dip_m = executor_.dip_m();
   camera_obstacles_.update(around.map3d, around.grid_for_paths, body_map_m + dip_m * Eigen::Vector3d::UnitZ());
-  if (dip_m > 0.0) lower_obstacles_.update(around.map3d, around.grid_for_paths, body_map_m);
+  if (dip_m != 0.0) obstacles_here_.update(around.map3d, around.grid_for_paths, body_map_m);
 }
 
 /// A vehicle that stands and is not to take off has its motors off, also while its mission waits for a person
@@ -172,7 +172,7 @@ void Navigator::assistPilot(const Decision& decision, control::FlightTick& fligh
 }
 
 /// The height of flight is the reference's: a vehicle that sinks does not move the slice of the map that is
-/// shown, and neither do a landing and a flight below something, behind which the path rises again.
+/// shown, and neither do a landing and a path in space, after which the vehicle is back at the height of flight.
 void Navigator::followMapHeight(double height_m) {
   if (controller_.state() == FlightState::kTakingOff) map_height_m_ = height_m;
   if (controller_.state() == FlightState::kFlying)

@@ -76,7 +76,7 @@ class Navigator {
   void carryOut(const Decision& decision, const Percept& percept, const KeepOutZones& keep_out);
   void updateCameraObstacles(const Percept& percept);
   const CameraObstacles& obstaclesOfCamera() const {
-    return executor_.dip_m() > 0.0 ? lower_obstacles_ : camera_obstacles_;
+    return executor_.dip_m() != 0.0 ? obstacles_here_ : camera_obstacles_;
   }
   void restMotors(const Decision& decision, common::Time now);
   control::FlightTick flightTick(const Decision& decision, const Percept& percept) const;
@@ -89,7 +89,7 @@ class Navigator {
   Executor executor_;
   Reactive reactive_;
   CameraObstacles camera_obstacles_;
-  CameraObstacles lower_obstacles_;  ///< At the height of the vehicle while that is below the height of flight.
+  CameraObstacles obstacles_here_;  ///< At the height of the vehicle while that is not the height of flight.
   PilotAssist assist_;
   bool assisted_ = false;  ///< At the last tick.
   Readiness readiness_;

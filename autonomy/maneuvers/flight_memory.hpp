@@ -27,11 +27,11 @@ struct FlightMemory {
   common::EventLog& log;
   /// Height of paths over the take-off floor: the height of the take-off until a goal names another.
   double cruise_height_m = 1.0;
-  /// The lower height of the plan that leads below something; nullopt once the vehicle is back at the height of paths.
-  std::optional<double> lowered_m;
-  /// Where the vehicle flew lower, and how high over the take-off floor: a flight back along the trail flies there as
-  /// low.
-  std::vector<Eigen::Vector3d> lowered_map_m;
+  /// A plan in space is flown, and until the vehicle is back at the height of paths after it.
+  bool in_space = false;
+  /// Where the vehicle flew at another height than that of paths, z over the take-off floor: a flight back along the
+  /// trail flies there at that height.
+  std::vector<Eigen::Vector3d> other_heights_map_m;
   /// Where the vehicle stood before it last took off: there it can stand again. nullopt where the position was unknown.
   std::optional<Eigen::Vector2d> stood_map_m;
   bool told_laser_alone = false;  ///< An event has said that a laser cannot know whether there is room below.
@@ -48,14 +48,14 @@ struct FlightMemory {
   std::optional<Eigen::Vector2d> person_map_m;    ///< Last estimated place of the person who is, or was, followed.
 };
 
-/// The heights now: of paths, of the controller's reference, and of the plan that leads below something.
+/// The heights now: of paths, of the controller's reference, and whether a plan in space is flown.
 FlightHeights heightsOf(const FlightMemory& memory, const control::FlightController& controller);
 
-/// How much lower than its paths' height the vehicle is to be: below something, and until it is back up; else 0.
+/// How much lower than its paths' height the vehicle is to be, on a path in space and until it is back; negative above.
 double dip_m(const FlightMemory& memory, const control::FlightController& controller);
 
-/// Remembers where it flies lower. `plan` is the plan that is flown; null without one.
-void rememberLowered(FlightMemory& memory, const planning::Path* plan, const control::FlightController& controller,
+/// Remembers where it flies at another height. `plan` is the plan that is flown; null without one.
+void rememberHeights(FlightMemory& memory, const planning::Path* plan, const control::FlightController& controller,
                      const common::VehicleState& state);
 
 }  // namespace swiftlet::autonomy

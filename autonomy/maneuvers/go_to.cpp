@@ -90,6 +90,7 @@ class GoTo final : public PathManeuver {
   bool asked_shifted_ = false;                  ///< `shifted_` at the last request.
   bool shifted_;                                ///< Whether a free place beside the goal is accepted.
   bool sees_heights_ = false;                   ///< Whether there is a 3D map.
+  Time asked_;                                  ///< When a path was last requested.
   Eigen::Vector2d place_map_m_;                 ///< The goal, or the free place that is flown to instead.
   std::optional<Eigen::Vector2d> ahead_map_m_;  ///< Of the last path to the goal, a little ahead of the vehicle.
 };
@@ -139,6 +140,7 @@ Progress GoTo::fly(const ManeuverInput& input) {
   } else if (no_path_ ? isDue(input.now) : replan) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m, shifted_ ? intent_.shift_m : 0.0});
     asked_shifted_ = shifted_;
+    asked_ = input.now;
   }
   return Progress::running();
 }
@@ -149,11 +151,12 @@ void GoTo::shiftWhenDue(Time now) {
   shifted_ = goal_taken_.active_s(now) > after_s;
 }
 
-/// A map that does not reach the goal may be about to grow: that shows in no cell at the edge of what is reached. With
-/// a 3D map each request tries another height.
+/// A map that does not reach the goal may be about to grow: that shows in no cell at the edge of what is reached, and
+/// neither does what the camera sees at other heights.
 bool GoTo::isDue(Time now) const {
-  return !mayPass(no_path_->failure) || sees_heights_ || shifted_ != asked_shifted_ ||
-         patience_.due(now, setup_.desk.opened());
+  constexpr double kLooksEach_s = 0.5;
+  const bool looks = sees_heights_ && (now - asked_).seconds() >= kLooksEach_s;
+  return !mayPass(no_path_->failure) || looks || shifted_ != asked_shifted_ || patience_.due(now, setup_.desk.opened());
 }
 
 bool GoTo::givesUp(const ManeuverInput& input) const {

@@ -49,11 +49,13 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   if (!cost_map) return;
   if (!plan()) keeper_.clear();  // A plan that is no longer followed is dropped.
   if (!keeper_.offer(path, now, mapsOf(*cost_map), state.T_map_body_planar().position_m())) return;
-  if (path.anyLowered()) {
-    if (!memory_.lowered_m)
-      memory_.log.info(now, kFlightSource, fmt::format("flies lower, at {:.2f} m", path.lower_height_m),
-                       fmt::format("obstacle over the path at {:.2f} m", memory_.cruise_height_m));
-    memory_.lowered_m = path.lower_height_m;
+  if (path.isInSpace()) {
+    if (!memory_.in_space) {
+      const auto [lowest, highest] = std::minmax_element(path.heights_m.begin(), path.heights_m.end());
+      memory_.log.info(now, kFlightSource, fmt::format("changes its height, {:.2f} to {:.2f} m", *lowest, *highest),
+                       fmt::format("obstacle on the path at {:.2f} m", memory_.cruise_height_m));
+    }
+    memory_.in_space = true;
   }
   control::FlightPath flown;
   flown.points_map_m = liftedPoints(path);
@@ -63,20 +65,27 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   pace_m_s_ = std::numeric_limits<double>::infinity();
 }
 
-/// The points with their heights; where the height changes, the same place twice. A vehicle that is not at the height
-/// of the first line changes it before it moves on. A path of one height that begins where the hull does not fit at
-/// that height (below a beam) leaves that place as low as the vehicle is.
+planning::PlanMaps PathFlight::mapsOf(const planning::CostMap& costs) const {
+  const auto space = desk_.space();
+  return {costs, space ? &space->hull : nullptr};
+}
+
+/// The points with their heights; where the height changes on the spot, the same place twice. A vehicle that is not at
+/// the height of a path of one height changes it before it moves on. Where such a path begins where the hull does not
+/// fit at that height (below a beam), it leaves that place at the height at which the vehicle is.
 std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path) const {
   const auto& points = path.points_map_m;
   const FlightHeights heights = heightsOf(memory_, controller_);
-  const bool leaves_lower = heights.isLower() && path.lowered.empty();
   const auto heightOf = [&](std::size_t line) {
-    if (leaves_lower && line < path.escape_points) return *memory_.lowered_m;
-    return path.isLowered(line) ? path.lower_height_m : memory_.cruise_height_m;
+    return heights.isOff() && line < path.escape_points ? heights.reference_m : memory_.cruise_height_m;
   };
   std::vector<Eigen::Vector3d> lifted;
   const auto add = [&](std::size_t i, double height_m) { lifted.emplace_back(points[i].x(), points[i].y(), height_m); };
-  if (memory_.lowered_m) add(0, heights.reference_m);
+  if (path.isInSpace()) {
+    for (std::size_t i = 0; i < points.size(); ++i) add(i, path.heights_m[i]);
+    return lifted;
+  }
+  if (memory_.in_space) add(0, heights.reference_m);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = i + 1 < points.size() ? i : before;
     add(i, heightOf(before));
@@ -105,12 +114,12 @@ bool PathFlight::arrived(const ManeuverInput& input, const Eigen::Vector2d& goal
   return within_.active();
 }
 
-/// A plan whose goal is free only at the lower height ends there. The height of paths may be above the greatest: the
+/// A plan whose goal is free only at another height ends there. The height of paths may be above the greatest: the
 /// mission that replaced another may allow less.
 double PathFlight::endHeight_m() const {
   const planning::Path* flown = plan();
-  const bool lower = flown != nullptr && !flown->lowered.empty() && flown->lowered.back();
-  return lower ? flown->lower_height_m : std::min(memory_.cruise_height_m, controller_.maxHeight_m());
+  const double height_m = flown != nullptr && flown->isInSpace() ? flown->heights_m.back() : memory_.cruise_height_m;
+  return std::min(height_m, controller_.maxHeight_m());
 }
 
 std::vector<Eigen::Vector2d> PathFlight::remaining_map_m() const {

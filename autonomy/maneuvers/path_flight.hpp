@@ -55,7 +55,7 @@ class PathFlight {
  private:
   /// A goal is reached only when the vehicle has been within the tolerance for this long.
   static constexpr double kArrival_s = 0.25;
-  planning::PlanMaps mapsOf(const planning::CostMap& costs) const { return {costs, desk_.heights().get()}; }
+  planning::PlanMaps mapsOf(const planning::CostMap& costs) const;
   std::vector<Eigen::Vector3d> liftedPoints(const planning::Path& path) const;
   double endHeight_m() const;
 

@@ -2,6 +2,7 @@
 // position is unreliable; the reactive layer brakes as everywhere. It fails before a keep-out zone that was made
 // after the trail, and where an obstacle stays for long.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -122,13 +123,17 @@ void Retrace::follow(const ManeuverInput& input) {
   following_ = setup_.controller.follow(flown).has_value();
 }
 
-/// Where it flew below something, the vehicle is as low again, from the place on where it had come down.
+/// Where it flew at another height, below something or through a window, the vehicle is at that height again, from the
+/// place on where it had changed it.
 Eigen::Vector3d Retrace::atItsHeight(const Eigen::Vector2d& point_map_m) const {
   // As far as the corners of a straightened path are apart.
   constexpr double kNear_m = 1.0;
-  double height_m = setup_.memory.cruise_height_m;
-  for (const Eigen::Vector3d& lowered : setup_.memory.lowered_map_m)
-    if ((lowered.head<2>() - point_map_m).norm() < kNear_m) height_m = std::min(height_m, lowered.z());
+  const double cruise_m = setup_.memory.cruise_height_m;
+  double height_m = cruise_m;
+  for (const Eigen::Vector3d& other : setup_.memory.other_heights_map_m)
+    if ((other.head<2>() - point_map_m).norm() < kNear_m &&
+        std::abs(other.z() - cruise_m) > std::abs(height_m - cruise_m))
+      height_m = other.z();
   return {point_map_m.x(), point_map_m.y(), height_m};
 }
 

@@ -8,7 +8,7 @@
 
 namespace swiftlet::autonomy {
 
-/// How the vehicle flies below what hangs over its path.
+/// How the vehicle changes its height where no path leads on at the height of flight.
 struct LowerFlightConfig {
   bool enabled = true;
 

@@ -1,5 +1,6 @@
 #include "autonomy/planning_jobs/planning_desk.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -40,8 +41,10 @@ bool PlanningDesk::due(Time now) const {
 }
 
 std::shared_ptr<const planning::CostMap> PlanningDesk::costMapAt(const FlightHeights& heights) const {
-  if (heights.isLower() && heights_) return {heights_, &heights_->lower};
-  return cost_map_;
+  constexpr double kSame_m = 0.15;  // Less than the hull is high.
+  if (!heights.isOff() || !space_ || !space_->here) return cost_map_;
+  if (std::abs(space_->here_height_m - heights.reference_m) > kSame_m) return cost_map_;
+  return {space_, &*space_->here};
 }
 
 bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
@@ -51,7 +54,7 @@ bool PlanningDesk::wallsAround(const common::VehicleState& state) const {
 void PlanningDesk::receive(const PlanningAnswer& answer, Time now) {
   cost_map_ = answer.cost_map;
   goal_map_ = planning::goalMapOf(cost_map_);
-  if (answer.heights) heights_ = answer.heights;
+  if (answer.space) space_ = answer.space;
   if (answer.exploration) {
     frontiers_ = std::make_shared<std::vector<common::Frontier>>(answer.exploration->frontiers);
     explored_area_m2_ = answer.exploration->explored_area_m2;

@@ -41,8 +41,8 @@ class PlanningDesk {
   std::shared_ptr<const planning::CostMap> costMapAt(const FlightHeights& heights) const;
   /// Whether the map has enough walls around the vehicle to know the position there; true without a map.
   bool wallsAround(const common::VehicleState& state) const;
-  /// The newest cost maps of paths at two heights; null before the first request of such a path.
-  std::shared_ptr<const planning::TwoHeights> heights() const { return heights_; }
+  /// What the newest path in space was planned with; null before the first request of such a path.
+  std::shared_ptr<const SpaceMaps> space() const { return space_; }
   /// The newest cost map for judging goals; null before the first answer.
   std::shared_ptr<const common::GoalMap> goalMap() const { return goal_map_; }
   /// The frontiers found by the last exploration request; never null.
@@ -64,7 +64,7 @@ class PlanningDesk {
   std::shared_ptr<PlanningWorker> worker_;
   std::optional<common::Time> last_request_;
   std::shared_ptr<const planning::CostMap> cost_map_;
-  std::shared_ptr<const planning::TwoHeights> heights_;
+  std::shared_ptr<const SpaceMaps> space_;
   std::shared_ptr<const common::GoalMap> goal_map_;
   std::shared_ptr<const std::vector<common::Frontier>> frontiers_;
   double explored_area_m2_ = 0.0;

@@ -1,6 +1,7 @@
 // What is asked of the planning job, with the world in which it plans.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,12 +24,17 @@ namespace swiftlet::autonomy {
 
 /// The heights at the time of a path request.
 struct FlightHeights {
-  double cruise_m = 1.0;            ///< The height of flight, over the take-off floor.
-  double reference_m = 1.0;         ///< Reference height of the controller.
-  std::optional<double> lowered_m;  ///< The lower height of the plan that is flown; nullopt without such a plan.
+  double cruise_m = 1.0;     ///< The height of flight, over the take-off floor.
+  double reference_m = 1.0;  ///< Reference height of the controller.
+  double highest_m = 2.0;    ///< No path leads higher.
+  /// A plan in space is flown, or the vehicle is not yet back at the height of flight after one.
+  bool in_space = false;
 
-  /// The vehicle is nearer to the lower height.
-  bool isLower() const { return lowered_m && reference_m < 0.5 * (cruise_m + *lowered_m); }
+  /// The vehicle is at another height than its paths in the plane.
+  bool isOff() const {
+    constexpr double kSame_m = 0.10;  // More than a hover sways.
+    return in_space && std::abs(reference_m - cruise_m) > kSame_m;
+  }
 };
 
 struct GoalRequest {

@@ -17,8 +17,9 @@ namespace {
 
 /// Two cells of the shipped map. The trail passes through every cell between two points (CostMap::applyFlown).
 constexpr double kFlownSpacing_m = 0.1;
-/// Greatest detour that is flown instead of flying lower, in metres of path (docs/decisions/planning.md#082).
-constexpr double kLowerDetour_m = 10.0;
+/// Greatest detour in the plane that is flown instead of changing the height, in metres of path
+/// (docs/decisions/planning.md#133); and where paths in space are preferred, what one must save.
+constexpr double kPlaneDetour_m = 10.0, kSpaceSaves_m = 1.0;
 /// Area that must be expected behind something that never moved, and has only the size of a person, to wait for it.
 constexpr double kWorthWaiting_m2 = 1.0;
 /// As much farther off people keep the planner (DynamicObstacles::kKeepOut_m), with a cell.
@@ -89,8 +90,8 @@ PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
   answer.opened = std::any_of(edge_.begin(), edge_.end(),
                               [&](common::CellIndex cell) { return map_.costAt(cell) != planning::CostMap::kLethal; });
   if (const auto* goal = std::get_if<GoalRequest>(&request.question)) {
-    if (!goal->height.isLower() || !request.map3d) answer.path = goTo(*goal, request.T_map_body.position_m());
-    goLower(request, *goal, layers, answer);
+    if (!goal->height.isOff() || !request.map3d) answer.path = goTo(*goal, request.T_map_body.position_m());
+    goInSpace(request, *goal, layers, answer);
     if (answer.path && !*answer.path) findBlockage(request, *goal, layers, answer);
   } else if (const auto* blocked = std::get_if<DetourRequest>(&request.question)) {
     answer.detour = detour(*blocked, request.T_map_body.position_m());
@@ -339,24 +340,26 @@ tl::expected<planning::Path, planning::PlanFailure> PlanningWorker::goTo(const G
   return plan(position_map_m, *place);
 }
 
-/// A path that is flown lower, where there is none at the height of flight, or only a great detour. A vehicle that is
-/// lower already plans at both heights.
-void PlanningWorker::goLower(const PlanningRequest& request, const GoalRequest& goal,
-                             const planning::CostLayers& layers, PlanningAnswer& answer) {
+/// A path that changes its height, where there is none at the height of flight, or only a great detour. A vehicle that
+/// is at another height already plans in space.
+void PlanningWorker::goInSpace(const PlanningRequest& request, const GoalRequest& goal,
+                               const planning::CostLayers& layers, PlanningAnswer& answer) {
   const Eigen::Vector2d here = request.T_map_body.position_m();
   const auto& direct = answer.path;
   const double straight_m = (goal.goal_map_m - here).norm();
-  if (direct && *direct && (*direct)->cost_m < straight_m + kLowerDetour_m) return;
+  const double detour_m = prefers_space_ ? kSpaceSaves_m : kPlaneDetour_m;
+  if (direct && *direct && (*direct)->cost_m < straight_m + detour_m) return;
   if (direct && !*direct && direct->error().reason == planning::PlanFailure::Reason::kGoalKeptOut) return;
   if (!request.map3d) return;
-  auto lower = lower_.plan(request, goal, layers);
-  // Space that the laser has not seen is flown through only below something, and on the way up behind it.
-  if (lower && !lower->anyLowered() && !goal.height.lowered_m) return;
-  answer.heights = lower_.maps();
-  if (lower && direct && *direct && lower->cost_m + kLowerDetour_m > (*direct)->cost_m) return;
-  if (!lower && direct) return;
-  if (lower) ++use_.paths;
-  answer.path = std::move(lower);
+  auto path = space_.plan(request, goal, map_.states(), layers);
+  const auto changes = [&](double height_m) { return height_m != goal.height.cruise_m; };
+  // Space that the laser has not seen is flown through only where the height changes.
+  if (path && !goal.height.in_space && std::none_of(path->heights_m.begin(), path->heights_m.end(), changes)) return;
+  answer.space = space_.maps();
+  if (path && direct && *direct && path->cost_m + detour_m > (*direct)->cost_m) return;
+  if (!path && direct) return;
+  if (path) ++use_.paths;
+  answer.path = std::move(path);
 }
 
 std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, const Eigen::Vector2d& position_map_m) {

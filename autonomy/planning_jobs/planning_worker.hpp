@@ -9,10 +9,10 @@
 
 #include <tl/expected.hpp>
 
-#include "autonomy/planning_jobs/lower_planner.hpp"
 #include "autonomy/planning_jobs/may_go.hpp"
 #include "autonomy/planning_jobs/planning_config.hpp"
 #include "autonomy/planning_jobs/planning_request.hpp"
+#include "autonomy/planning_jobs/space_planner.hpp"
 #include "planning/costs/cost_map.hpp"
 #include "planning/exploration/exploration.hpp"
 #include "planning/search/planner.hpp"
@@ -46,9 +46,8 @@ struct PlanningAnswer {
   std::shared_ptr<const planning::CostMap> cost_map;
   /// For a GoalRequest the path to the goal, for an ExploreRequest the path to the viewpoint it found.
   std::optional<tl::expected<planning::Path, planning::PlanFailure>> path;
-  /// The cost maps of a path that is flown at two heights, as long as such paths are requested; else null.
-  std::shared_ptr<const planning::TwoHeights> heights;
-  std::optional<DetourPlan> detour;                        ///< For a DetourRequest; nullopt without a place.
+  std::shared_ptr<const SpaceMaps> space;  ///< Of a plan in space, as long as such plans are requested; else null.
+  std::optional<DetourPlan> detour;        ///< For a DetourRequest; nullopt without a place.
   std::optional<planning::ExplorationResult> exploration;  ///< For an ExploreRequest; `path` leads to its `next`.
   /// Where there is no path to the goal, or no frontier is open; nullopt: it is not blocked only for a time.
   std::optional<Blockage> blockage;
@@ -67,9 +66,10 @@ class PlanningWorker {
   PlanningWorker(const PlanningConfig& config, double resolution_m, double hull_height_m = 0.25)
       : map_(config.cost_map, resolution_m),
         cleared_(config.cost_map, resolution_m),
-        lower_(config.lower.enabled, config.cost_map, resolution_m, hull_height_m),
+        space_(config.lower.enabled, config.cost_map, resolution_m, hull_height_m),
         explorer_(config.explorer),
         planner_(planning::makePlanner(config.planner)),
+        prefers_space_(config.planner.kind == planning::PlannerKind::kSampling),
         use_{planner_->name(), 0, toString(config.explorer.kind), 0} {}
 
   PlanningAnswer answer(const PlanningRequest& request);
@@ -81,8 +81,8 @@ class PlanningWorker {
                                                                         const GoalRequest& goal);
   tl::expected<planning::Path, planning::PlanFailure> goTo(const GoalRequest& goal,
                                                            const Eigen::Vector2d& position_map_m);
-  void goLower(const PlanningRequest& request, const GoalRequest& goal, const planning::CostLayers& layers,
-               PlanningAnswer& answer);
+  void goInSpace(const PlanningRequest& request, const GoalRequest& goal, const planning::CostLayers& layers,
+                 PlanningAnswer& answer);
   std::optional<DetourPlan> detour(const DetourRequest& request, const Eigen::Vector2d& position_map_m);
   void explore(const PlanningRequest& request, const ExploreRequest& question, const planning::CostLayers& layers,
                PlanningAnswer& answer);
@@ -108,10 +108,11 @@ class PlanningWorker {
   planning::CostMap cleared_;  ///< The map as if all that may go had gone, as of the last failure.
   WhoMayGo who_may_go_;
   std::vector<common::CellIndex> edge_;  ///< Where the vehicle could not go on when it last found no path.
-  LowerPlanner lower_;
+  SpacePlanner space_;
   std::vector<Eigen::Vector2d> flown_map_m_;  ///< Positions of the vehicle at the requests, thinned.
   planning::ExplorerConfig explorer_;
   std::unique_ptr<planning::Planner> planner_;
+  bool prefers_space_;  ///< A path in space replaces one in the plane that is longer.
   planning::Wavefront home_planner_;
   std::optional<double> home_m_;
   int home_failures_ = 0;  ///< Plans without a path, since the last path.

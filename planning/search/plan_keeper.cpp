@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,20 +84,15 @@ void PlanKeeper::advanceTo(const Point& position_map_m) {
 }
 
 /// It may begin in the lethal zone, which the vehicle must leave, and the lines of its escape may lead through it;
-/// after that, a lethal line blocks it. A lowered line is judged at its height, and the others of such a plan by what
-/// both sensors know at the height of flight.
+/// after that, a lethal line blocks it.
 PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
+  if (path_->isInSpace() && maps.space != nullptr) return restInSpace(maps);
   const std::vector<Point> points_m = remaining();
   const std::size_t escape_points = remainingEscape();
-  const bool two = !path_->lowered.empty() && maps.heights != nullptr;
-  const auto mapOf = [&](std::size_t line) -> const CostMap& {
-    if (!two) return maps.costs;
-    return path_->isLowered(segment_ + line) ? maps.heights->lower : maps.heights->upper;
-  };
+  const CostMap& map = maps.costs;
   Rest rest;
-  bool leaving = isLethalAt(mapOf(0), points_m.front());
+  bool leaving = isLethalAt(map, points_m.front());
   for (std::size_t i = 1; i < points_m.size(); ++i) {
-    const CostMap& map = mapOf(i - 1);
     const SegmentCost step = segmentCost(map, points_m[i - 1], points_m[i]);
     if (!step.lethal) {
       leaving = false;
@@ -112,6 +108,38 @@ PlanKeeper::Rest PlanKeeper::rest(const PlanMaps& maps) const {
     rest.cost_m += (points_m[i] - points_m[i - 1]).norm();
   }
   if (leaving && points_m.size() > 1) rest.blocked_map_m = points_m.back();
+  return rest;
+}
+
+/// The cost of the rest is its share of the length. It may begin where the hull is not free, and leave that. A plan
+/// through a gap is kept with half a voxel less than it was made with: the edge of a gap comes and goes by a voxel.
+PlanKeeper::Rest PlanKeeper::restInSpace(const PlanMaps& maps) const {
+  const HullSpace& space = *maps.space;
+  const double radius_m = space.radius_m - 0.5 * space.clearance.resolution_m();
+  const auto isFree = [&](const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m) {
+    return space.clearance.isFree(space.middleOf(from_m), space.middleOf(to_m), radius_m);
+  };
+  const std::vector<Point> points_m = remaining();
+  const auto heightOf = [&](std::size_t point) {
+    if (point > 0) return path_->heights_m[segment_ + point];
+    const double from_m = path_->heights_m[segment_];
+    return points_m.size() == 1 ? from_m : from_m + along_ * (path_->heights_m[segment_ + 1] - from_m);
+  };
+  const auto placeOf = [&](std::size_t point) {
+    return Eigen::Vector3d(points_m[point].x(), points_m[point].y(), heightOf(point));
+  };
+  Rest rest;
+  bool leaving = !isFree(placeOf(0), placeOf(0));
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    const Eigen::Vector3d from = placeOf(i - 1), to = placeOf(i);
+    length_m += (to - from).norm();
+    const bool may_leave = std::exchange(leaving, false) || i <= remainingEscape();
+    if (may_leave ? isFree(to, to) : isFree(from, to)) continue;
+    rest.blocked_map_m = points_m[i];
+    return rest;
+  }
+  rest.cost_m = path_->length_m > 0.0 ? path_->cost_m * length_m / path_->length_m : 0.0;
   return rest;
 }
 

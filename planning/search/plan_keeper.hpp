@@ -10,18 +10,18 @@
 #include <Eigen/Core>
 
 #include "common/time.hpp"
+#include "planning/clearance/hull_space.hpp"
 #include "planning/search/planner.hpp"
-#include "planning/search/two_heights.hpp"
 
 namespace swiftlet::planning {
 
 /// The cost maps by which a plan is judged.
 struct PlanMaps {
-  const CostMap& costs;                 ///< Of the height of flight.
-  const TwoHeights* heights = nullptr;  ///< Judges plans with lowered lines; null: such plans are not offered.
+  const CostMap& costs;              ///< Of the height of flight.
+  const HullSpace* space = nullptr;  ///< Judges plans in space; null: such plans are not offered.
 
   // Implicit, as most plans are flown at one height.
-  PlanMaps(const CostMap& map, const TwoHeights* two = nullptr) : costs(map), heights(two) {}
+  PlanMaps(const CostMap& map, const HullSpace* hull_space = nullptr) : costs(map), space(hull_space) {}
 };
 
 /// Not thread-safe. Usage in each tick:
@@ -58,6 +58,7 @@ class PlanKeeper {
   /// The points of the escape that remaining() has after its first one.
   std::size_t remainingEscape() const;
   Rest rest(const PlanMaps& maps) const;
+  Rest restInSpace(const PlanMaps& maps) const;
 
   std::optional<Path> path_;
   common::Time stamp_;

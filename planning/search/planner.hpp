@@ -2,7 +2,6 @@
 // zone, refusal with a reason, and conversion of a chain of cells into a path that a quadrotor flies well.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,13 +21,11 @@ struct Path {
   double cost_m = 0.0;  ///< Equivalent length in open space: the integral of the cost, which is 1 there.
   /// Number of points after the start that are the escape: the lines up to them may lead through the lethal zone.
   std::size_t escape_points = 0;
-  /// Of each line between two points, whether it is flown at `lower_height_m` instead of the height of flight
-  /// (two_heights.hpp); empty: no line is.
-  std::vector<bool> lowered = {};
-  double lower_height_m = 0.0;  ///< Over the take-off floor.
+  /// Of each point over the take-off floor, for a path in space; empty: all of it is at the height of flight. Where the
+  /// height changes on the spot, a place is there twice.
+  std::vector<double> heights_m = {};
 
-  bool isLowered(std::size_t line) const { return line < lowered.size() && lowered[line]; }
-  bool anyLowered() const { return std::find(lowered.begin(), lowered.end(), true) != lowered.end(); }
+  bool isInSpace() const { return !heights_m.empty(); }
 };
 
 /// Why there is no path.

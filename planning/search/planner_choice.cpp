@@ -8,12 +8,14 @@
 namespace swiftlet::planning {
 
 void PlannerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"dstar_lite", "wavefront"}, "Who finds the paths to goals and to viewpoints.");
+  fields.choice("kind", kind, {"dstar_lite", "wavefront", "sampling"},
+                "Who finds the paths to goals and to viewpoints.");
 }
 
 std::unique_ptr<Planner> makePlanner(const PlannerConfig& config) {
   switch (config.kind) {
     case PlannerKind::kDStarLite:
+    case PlannerKind::kSampling:
       return std::make_unique<DStarLite>();
     case PlannerKind::kWavefront:
       return std::make_unique<Wavefront>();

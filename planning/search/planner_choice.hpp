@@ -8,8 +8,10 @@
 
 namespace swiftlet::planning {
 
-/// D* Lite repairs its last search (Grzonka 2012). The wavefront starts a new search from the vehicle (Saeedi).
-enum class PlannerKind { kDStarLite, kWavefront };
+/// D* Lite repairs its last search (Grzonka 2012). The wavefront starts a new search from the vehicle (Saeedi). With
+/// kSampling a path in space (RRT-Connect, planning/sampling) is flown wherever it is shorter than D* Lite's at the
+/// height of flight; with the others only where there is none, or a great detour.
+enum class PlannerKind { kDStarLite, kWavefront, kSampling };
 
 struct PlannerConfig {
   PlannerKind kind = PlannerKind::kDStarLite;

@@ -155,6 +155,25 @@ TEST_F(Plan, FindsTheOptimalLengthsOfAScenario) {
   EXPECT_THAT(wrong.out, testing::ContainsRegex("wrong.scen:7: 10\\.00000, optimal 9\\.40000"));
 }
 
+TEST_F(Plan, SolvesProblemsOfAVoxelMap) {
+  // A wall at x = 2 with one free voxel at (2, 3, 1): diagonal steps past its edges would cut corners.
+  std::string map = "voxel 5 4 3\n";
+  for (int y = 0; y < 4; ++y)
+    for (int z = 0; z < 3; ++z)
+      if (y != 3 || z != 1) map += "2 " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  const std::string file = write("small.3dmap", map), head = "version 1\nsmall.3dmap\n";
+  const std::string right = "0 3 1 4 3 1 4 1\n1 2 1 3 2 1 4 1\n0 0 0 1 1 1 1.73205081 1\n0 0 0 0 0 0 0 1\n";
+  const ProgramEnd end = plan(file, {"--problems", write("small.3dscen", head + right)});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  EXPECT_THAT(end.out, HasSubstr("4 of 4 lengths are the optimal ones"));
+  const ProgramEnd two = plan(file, {"--problems", path("small.3dscen"), "--drawn", "2", "--seed", "3"});
+  EXPECT_THAT(two.out, HasSubstr("2 of 2 lengths are the optimal ones"));
+  const ProgramEnd wrong = plan(file, {"--problems", write("wrong.3dscen", head + "0 0 0 1 1 1 1.9 1\n")});
+  EXPECT_EQ(wrong.exit_code, 1) << describe(wrong);
+  expectRefused(plan(file, {"--problems", write("far.3dscen", head + "0 0 0 5 1 1 1.9 1\n")}), "far.3dscen:3");
+  expectRefused(plan(write("no.3dmap", "2 2 2\n"), {"--problems", path("small.3dscen")}), "no.3dmap:1");
+}
+
 TEST_F(Plan, RefusesWhatIsNoQuestion) {
   const std::string map = floorPlan();
   expectRefused(plan(map, {"--from", "1;0"}), "--to: is missing");
@@ -162,7 +181,7 @@ TEST_F(Plan, RefusesWhatIsNoQuestion) {
   expectRefused(plan(map, {"--from", "nan;0", "--to", "5;0"}), "--from: `nan;0` is no place of this map");
   expectRefused(plan(map, {"--from", "1;0", "--to", "5;0", "--out", path("none/path.png")}), "--out");
   expectRefused(plan(map, {"--problems", "a.scen", "--from", "1;0"}), "--problems: goes with no place");
-  expectRefused(plan(map, {"--problems", "a.scen"}), "is no .map of the Moving AI");
+  expectRefused(plan(map, {"--problems", "a.scen"}), "is no .map or .3dmap of the Moving AI");
   expectRefused(plan(write("notes.txt", "x"), {"--from", "1;0", "--to", "5;0"}), "is not a kind of map");
 }
 

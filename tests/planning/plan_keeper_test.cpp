@@ -164,19 +164,33 @@ TEST_F(PlanKeeping, DoesNotAlternateBetweenTwoEqualPaths) {
   EXPECT_NEAR(position.x(), 10.0, 0.2);
 }
 
-TEST_F(PlanKeeping, ALoweredLineIsJudgedAtItsHeight) {
-  common::OccupancyGrid below = test::room(240, 160);
-  test::fill(grid, {{120, 0}, {123, 160}}, test::kWallCell);  // A beam at x = 6 m.
+/// 12 x 8 x 2 m that are free but for a beam at x = 6 m, 0.9 to 1.2 m high, and what else is drawn.
+HullSpace spaceWithABeam(bool blocked_below) {
+  common::VoxelMap voxels(0.1);
+  for (int z = 0; z < 20; ++z)
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 120; ++x) {
+        const bool beam = x == 60 && z >= 9 && z < 12, below = blocked_below && x == 66 && z < 9;
+        voxels.set({x, y, z}, beam || below ? std::int8_t{40} : std::int8_t{-40});
+      }
+  HullSpace space{Clearance::ofSpace(0.1, 0.25), 0.0, 0.325};
+  space.clearance.update(voxels.snapshot());
+  return space;
+}
+
+TEST_F(PlanKeeping, APathInSpaceIsJudgedAtItsHeights) {
+  test::fill(grid, {{120, 0}, {123, 160}}, test::kWallCell);  // The beam, at the height of flight.
   map = test::mapOf(grid);
-  TwoHeights heights{map, test::mapOf(below), 0.5};
-  Path path = pathOf(heights.lower, {{2, 4}, {5, 4}, {7, 4}, {10, 4}});
-  path.lowered = {false, true, false};
-  ASSERT_TRUE(keeper.offer(path, at(0), {map, &heights}, {2, 4}));
-  EXPECT_TRUE(keeper.check(at(0.1), {map, &heights}, {2, 4}).valid);
-  EXPECT_TRUE(keeper.check(at(0.2), {map, &heights}, {6, 4}).valid) << "below the beam";
-  test::fill(below, {{130, 70}, {134, 90}}, test::kWallCell);
-  heights.lower = test::mapOf(below);
-  const PlanKeeper::Check blocked = keeper.check(at(0.3), {map, &heights}, {6, 4});
+  HullSpace space = spaceWithABeam(false);
+  Path path;
+  path.points_map_m = {{2, 4}, {5, 4}, {5, 4}, {7, 4}, {7, 4}, {10, 4}};
+  path.heights_m = {1.0, 1.0, 0.55, 0.55, 1.0, 1.0};
+  path.length_m = path.cost_m = 8.9;
+  ASSERT_TRUE(keeper.offer(path, at(0), {map, &space}, {2, 4}));
+  EXPECT_TRUE(keeper.check(at(0.1), {map, &space}, {2, 4}).valid);
+  EXPECT_TRUE(keeper.check(at(0.2), {map, &space}, {6, 4}).valid) << "below the beam";
+  space = spaceWithABeam(true);
+  const PlanKeeper::Check blocked = keeper.check(at(0.3), {map, &space}, {6, 4});
   EXPECT_FALSE(blocked.valid);
   EXPECT_THAT(blocked.reason, HasSubstr("blocked before (7.00, 4.00)"));
 }

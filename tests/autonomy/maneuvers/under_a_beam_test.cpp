@@ -52,7 +52,7 @@ TEST_F(UnderABeam, TheVehicleFliesBelowItAndComesBackUp) {
   EXPECT_NEAR(height_m(), kHeight_m, 0.05);
   EXPECT_GE(below_m, 0.5);
   EXPECT_LT(below_m, 0.9 - 0.125 - 0.1) << "half the hull and air below the beam";
-  EXPECT_EQ(timesSaid("flies lower, at 0.55 m"), 1);
+  EXPECT_EQ(timesSaid("changes its height"), 1);
   EXPECT_EQ(executor_.dip_m(), 0.0) << "it is back at the height of flight";
 }
 
@@ -110,7 +110,7 @@ TEST_F(UnderABeam, AHoldBelowItStaysThereAndTheNextGoalLeadsOut) {
   runUntil([&] { return position_m().x() > 4.05; }, 40.0);
   want(common::HoldIntent{});
   run(3.0);
-  EXPECT_NEAR(height_m(), 0.55, 0.05);
+  EXPECT_LT(height_m(), 0.9 - 0.125 - 0.1);
   want(to(1.5, 2.0));
   EXPECT_LT(fliesBelowBeam_m(40.0), 0.9 - 0.125 - 0.1);
   EXPECT_EQ(executor_.status().state, IntentState::kSucceeded) << executor_.status().reason;
@@ -120,7 +120,7 @@ TEST_F(UnderABeam, AHoldBelowItStaysThereAndTheNextGoalLeadsOut) {
 TEST_F(UnderABeam, WithoutTheVoxelsItLeavesThePlaceBelowAsLowAsItIs) {
   see();
   want(to(6.5, 2.0));
-  runUntil([&] { return position_m().x() > 3.8; }, 40.0);
+  runUntil([&] { return position_m().x() > 3.95; }, 40.0);
   want(common::HoldIntent{});
   run(1.0);
   ASSERT_GT(position_m().x(), 3.75);
