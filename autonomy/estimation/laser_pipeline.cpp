@@ -32,7 +32,7 @@ void LaserPipelineConfig::describe(common::config::Fields& fields) {
 }
 
 LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
-    : config_(config), laser_(laser), odometry_(config.odometry) {}
+    : config_(config), laser_(laser), odometry_(config.odometry, &walls_) {}
 
 perception::ProjectedScan LaserPipeline::project(const common::LaserScan& scan,
                                                  const perception::PoseAt& pose_at) const {

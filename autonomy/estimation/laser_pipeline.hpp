@@ -49,6 +49,15 @@ class LaserPipeline {
   /// the last match does not count as motion.
   OdometryStep match(const perception::ProjectedScan& scan, const FilterView& filter);
 
+  /// Learns where walls lean, from a scan whose pose is known.
+  void learnWalls(const perception::ProjectedScan& scan, const common::Pose3& T_odom_body) {
+    walls_.add(scan, T_odom_body);
+  }
+  /// The scan at the height of the body: ends on leaning walls are moved along these.
+  perception::ProjectedScan atBodyHeight(const perception::ProjectedScan& scan) const {
+    return walls_.atHeight(scan, scan.T_odom_body.position_m.z());
+  }
+
   /// See LaserOdometry::refused.
   void refused(bool by_filter) { odometry_.refused(by_filter); }
 
@@ -68,6 +77,7 @@ class LaserPipeline {
 
   LaserPipelineConfig config_;
   common::LaserConfig laser_;
+  perception::LeaningWalls walls_;
   perception::LaserOdometry odometry_;
   std::optional<common::Time> asked_;  ///< Stamp of the last scan that was to be matched.
 

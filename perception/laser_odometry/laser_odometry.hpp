@@ -11,6 +11,7 @@
 
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
+#include "perception/projection/leaning_walls.hpp"
 #include "perception/scan_matching/matcher_choice.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
@@ -72,7 +73,8 @@ struct LaserOdometryCounts {
 /// Not thread-safe.
 class LaserOdometry {
  public:
-  explicit LaserOdometry(const LaserOdometryConfig& config);
+  /// `walls` says which walls do not stand upright, and must outlive the odometry; null: all of them do.
+  explicit LaserOdometry(const LaserOdometryConfig& config, const LeaningWalls* walls = nullptr);
   ~LaserOdometry();
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;
