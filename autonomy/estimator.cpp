@@ -121,8 +121,10 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   if (outcome.matched) {
     seen_.position = now;
     poses_.matched(now);
-    laser_.learnWalls(unlevelled, T_odom_bodyAt(unlevelled));
   }
+  // For some tenths of a second without a match inertia knows the pose as well.
+  constexpr double kKnown_s = 0.4;
+  if ((now - seen_.position).seconds() < kKnown_s) laser_.learnWalls(unlevelled, T_odom_bodyAt(unlevelled));
   outcome.interrupted = odometry.interrupted;
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));

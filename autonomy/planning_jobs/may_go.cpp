@@ -161,8 +161,8 @@ class StandingAlone {
   }
 
   const planning::CostMap& map_;
-  std::vector<int> thing_;        ///< Number of the thing that a cell belongs to, from 1; 0: none.
-  std::vector<bool> too_large_;   ///< Of each thing.
+  std::vector<int> thing_;       ///< Number of the thing that a cell belongs to, from 1; 0: none.
+  std::vector<bool> too_large_;  ///< Of each thing.
   std::vector<int> open_;
   double most_cells_;
 };
@@ -210,9 +210,8 @@ std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Ei
   }
   StandingAlone standing(map);
   for (const common::Disc& disc : standing.find()) {
-    std::erase_if(stood_, [&](const common::Disc& one) {
-      return (one.center_map_m - disc.center_map_m).norm() < kSame_m;
-    });
+    std::erase_if(stood_,
+                  [&](const common::Disc& one) { return (one.center_map_m - disc.center_map_m).norm() < kSame_m; });
     if (stood_.size() < kMostPeople) stood_.push_back(disc);
   }
   std::erase_if(stood_, [&](const common::Disc& one) { return !anythingIn(map, one) || standing.isPartOfMore(one); });

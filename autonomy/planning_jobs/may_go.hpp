@@ -41,7 +41,7 @@ class WhoMayGo {
     int id = 0;
     Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
   };
-  std::vector<Person> people_;  ///< Where they last moved, the newest last.
+  std::vector<Person> people_;       ///< Where they last moved, the newest last.
   std::vector<common::Disc> stood_;  ///< What stood alone, and has not gone.
 };
 

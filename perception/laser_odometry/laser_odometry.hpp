@@ -11,11 +11,12 @@
 
 #include "common/config_fwd.hpp"
 #include "common/time.hpp"
-#include "perception/projection/leaning_walls.hpp"
 #include "perception/scan_matching/matcher_choice.hpp"
 #include "perception/scan_matching/scan_matcher.hpp"
 
 namespace swiftlet::perception {
+
+class LeaningWalls;
 
 /// The pose of the scan at `to` relative to the reference key scan at `from`.
 ///

@@ -7,8 +7,10 @@
 //                                                                                         |
 //   next scan -----------------------------------------------------------------------> ends at one height
 //
-// Where nothing leans, a scan stays as it is.
+// Where nothing leans, a scan stays as it is (docs/decisions/scan_matching.md#134).
 #pragma once
+
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -29,9 +31,16 @@ class LeaningWalls {
   /// Whether anything that was seen leans.
   bool any() const { return leaning_cells_ > 0; }
 
-  /// The scan with the ends on leaning walls moved along these to a height over the take-off floor. Ends that would
-  /// move too far for a plane that is known in one place only are left out. The scan is taken to be at its T_odom_body.
+  /// The scan with the ends on leaning walls moved along these to a height over the take-off floor. The scan is taken
+  /// to be at its T_odom_body.
   ProjectedScan atHeight(const ProjectedScan& scan, double height_odom_m) const;
+
+  struct Section {
+    ProjectedScan scan;
+    double moved_m = 0.0;  ///< Root mean square of how far the ends were moved.
+  };
+  /// The same for a match: without the ends of which it is not known where their surface is at that height.
+  Section sectionAt(const ProjectedScan& scan, double height_odom_m) const;
 
  private:
   /// A plane must hold for the size of a cell, and a cell must be seen at several heights while it is crossed.
@@ -42,13 +51,17 @@ class LeaningWalls {
     float count = 0.0F;
     Eigen::Vector3f sum_m = Eigen::Vector3f::Zero();
     Eigen::Matrix3f squares_m2 = Eigen::Matrix3f::Zero();
-    /// How far the wall moves horizontally for each metre of height, along x and y; zero while it is not known to lean.
-    Eigen::Vector2f lean = Eigen::Vector2f::Zero();
+    /// Horizontal, of length 1; zero while no plane is known.
+    Eigen::Vector2f normal = Eigen::Vector2f::Zero();
+    float lean = 0.0F;   ///< How far the wall moves along its normal for each metre of height; 0 if it stands upright.
     float added = 0.0F;  ///< Since the plane was fitted.
   };
+  /// The sum of what was moved, squared, is added to `squares_m2`.
+  ProjectedScan moved(const ProjectedScan& scan, double height_odom_m, bool only_known, double& squares_m2) const;
   void fit(Cell& cell);
-  /// Of the nearest leaning wall that the point lies on, in its cell and those around; zero on none.
-  Eigen::Vector2d leanAt(const Eigen::Vector3d& point_odom_m) const;
+  /// How far the wall that the point lies on moves along x and y for each metre of height, by the nearest plane of its
+  /// cell and those around; nullopt where none is known.
+  std::optional<Eigen::Vector2d> leanAt(const Eigen::Vector3d& point_odom_m) const;
 
   common::TiledGrid<Cell> cells_;
   int leaning_cells_ = 0;
