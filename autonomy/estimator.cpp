@@ -117,9 +117,11 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   space_.add(scan);
   if (filter_->atRest()) start_.look(scan, filter_->state().T_odom_body.rotation);
   ScanOutcome outcome;
-  outcome.scan = project(scan);
-  altitude_.removeGround(outcome.scan);
-  const perception::ProjectedScan standing = withoutPeople(outcome.scan, scan.stamps.measured);
+  perception::ProjectedScan measured = project(scan);
+  altitude_.removeGround(measured);
+  const perception::ProjectedScan unlevelled = withoutPeople(measured, scan.stamps.measured);
+  outcome.scan = laser_.atBodyHeight(measured);
+  const perception::ProjectedScan standing = laser_.atBodyHeight(unlevelled);
   perception::markPeople(people_.movingAt(scan.stamps.measured), map_.T_map_odom() * planar(outcome.scan.T_odom_body),
                          outcome.scan);
   if (!laser_.wants(outcome.scan.stamp)) {
@@ -130,12 +132,15 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
     return outcome;
   }
   const bool withheld = isWithheld(outcome.scan);
-  const OdometryStep odometry = withheld ? OdometryStep{} : match(standing);
+  const OdometryStep odometry = withheld ? OdometryStep{} : match(unlevelled);
   outcome.matched = !withheld && fuse(odometry, now);
   if (outcome.matched) {
     seen_.position = now;
     poses_.matched(now);
   }
+  // For some tenths of a second without a match inertia knows the pose as well.
+  constexpr double kKnown_s = 0.4;
+  if ((now - seen_.position).seconds() < kKnown_s) laser_.learnWalls(unlevelled, T_odom_bodyAt(unlevelled));
   outcome.interrupted = odometry.interrupted;
 
   const Pose2 T_odom_body = planar(T_odom_bodyAt(outcome.scan));

@@ -8,6 +8,7 @@
 
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
+#include "perception/projection/leaning_walls.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -32,7 +33,19 @@ void LaserPipelineConfig::describe(common::config::Fields& fields) {
 }
 
 LaserPipeline::LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser)
-    : config_(config), laser_(laser), odometry_(config.odometry) {}
+    : config_(config),
+      laser_(laser),
+      walls_(std::make_unique<perception::LeaningWalls>()),
+      odometry_(config.odometry, walls_.get()) {}
+LaserPipeline::~LaserPipeline() = default;
+
+void LaserPipeline::learnWalls(const perception::ProjectedScan& scan, const common::Pose3& T_odom_body) {
+  walls_->add(scan, T_odom_body);
+}
+
+perception::ProjectedScan LaserPipeline::atBodyHeight(const perception::ProjectedScan& scan) const {
+  return walls_->atHeight(scan, scan.T_odom_body.position_m.z());
+}
 
 perception::ProjectedScan LaserPipeline::project(const common::LaserScan& scan,
                                                  const perception::PoseAt& pose_at) const {

@@ -5,6 +5,7 @@
 // It does not refer to the filter. Its inputs and outputs are values.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "autonomy/estimation/odometry_step.hpp"
@@ -13,6 +14,10 @@
 #include "common/vehicle_config.hpp"
 #include "perception/laser_odometry/laser_odometry.hpp"
 #include "perception/projection/scan_projection.hpp"
+
+namespace swiftlet::perception {
+class LeaningWalls;
+}
 
 namespace swiftlet::autonomy {
 
@@ -39,6 +44,7 @@ class LaserPipeline {
   static constexpr double kDriftFloor_m = 0.002;
 
   LaserPipeline(const LaserPipelineConfig& config, const common::LaserConfig& laser);
+  ~LaserPipeline();
 
   perception::ProjectedScan project(const common::LaserScan& scan, const perception::PoseAt& pose_at) const;
 
@@ -48,6 +54,11 @@ class LaserPipeline {
   /// Matches a scan. It must have been projected by poses of the same history as `filter`, so that a correction since
   /// the last match does not count as motion.
   OdometryStep match(const perception::ProjectedScan& scan, const FilterView& filter);
+
+  /// Learns where walls lean, from a scan whose pose is known.
+  void learnWalls(const perception::ProjectedScan& scan, const common::Pose3& T_odom_body);
+  /// The scan at the height of the body: ends on leaning walls are moved along these.
+  perception::ProjectedScan atBodyHeight(const perception::ProjectedScan& scan) const;
 
   /// See LaserOdometry::refused.
   void refused(bool by_filter) { odometry_.refused(by_filter); }
@@ -68,6 +79,7 @@ class LaserPipeline {
 
   LaserPipelineConfig config_;
   common::LaserConfig laser_;
+  std::unique_ptr<perception::LeaningWalls> walls_;
   perception::LaserOdometry odometry_;
   std::optional<common::Time> asked_;  ///< Stamp of the last scan that was to be matched.
 

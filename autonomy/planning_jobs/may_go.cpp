@@ -24,6 +24,8 @@ constexpr double kLeastWidth_m = 0.25, kMostWidth_m = 0.65;
 constexpr double kBody_m = common::kPersonHalfWidth_m + 0.10;
 /// Behind somebody a laser sees nothing: without the person there is room for a hull, as far as is known.
 constexpr double kBehind_m = 0.55;
+/// Things nearer to each other than this are one.
+constexpr double kSame_m = 0.3;
 /// Far more than the people of one flight.
 constexpr std::size_t kMostPeople = 64;
 
@@ -55,13 +57,14 @@ struct Thing {
 class StandingAlone {
  public:
   explicit StandingAlone(const planning::CostMap& map)
-      : map_(map), seen_(map.costs().size(), 0), most_cells_(kMostWidth_m / map.resolution_m()) {}
+      : map_(map), thing_(map.costs().size(), 0), most_cells_(kMostWidth_m / map.resolution_m()) {}
 
   std::vector<common::Disc> find() {
     std::vector<common::Disc> discs;
-    for (int i = 0; i < static_cast<int>(seen_.size()); ++i) {
-      if (seen_[static_cast<std::size_t>(i)] != 0 || map_.states()[i] != CellState::kOccupied) continue;
+    for (int i = 0; i < static_cast<int>(thing_.size()); ++i) {
+      if (thing_[static_cast<std::size_t>(i)] != 0 || map_.states()[i] != CellState::kOccupied) continue;
       const Thing thing = spread(i);
+      too_large_.push_back(thing.too_large);
       const double width_m = std::max(thing.rect.width(), thing.rect.height()) * map_.resolution_m();
       if (thing.too_large || width_m < kLeastWidth_m || !hasFreeEnds(thing)) continue;
       const Eigen::Vector2d low = map_.centerOf(thing.rect.begin);
@@ -72,12 +75,28 @@ class StandingAlone {
     return discs;
   }
 
+  /// After find(): whether most of what is in the disc belongs to something larger, such as a wall that was seen on.
+  bool isPartOfMore(const common::Disc& disc) const {
+    int occupied = 0, of_more = 0;
+    const CellRect cells = squareAround(map_, disc);
+    for (int y = cells.begin.y; y < cells.end.y; ++y)
+      for (int x = cells.begin.x; x < cells.end.x; ++x) {
+        if (!map_.rect().contains({x, y}) || !disc.covers(map_.centerOf({x, y}))) continue;
+        const int number = thing_[static_cast<std::size_t>(map_.indexOf({x, y}))];
+        if (number == 0) continue;
+        ++occupied;
+        of_more += too_large_[static_cast<std::size_t>(number) - 1] ? 1 : 0;
+      }
+    return 2 * of_more > occupied;
+  }
+
  private:
   Thing spread(int seed) {
     const CellIndex first = map_.cellOf(seed);
     Thing thing{{first, {first.x + 1, first.y + 1}}, false, {}};
     open_.assign(1, seed);
-    seen_[static_cast<std::size_t>(seed)] = 1;
+    const int number = static_cast<int>(too_large_.size()) + 1;
+    thing_[static_cast<std::size_t>(seed)] = number;
     while (!open_.empty()) {
       const CellIndex at = map_.cellOf(open_.back());
       open_.pop_back();
@@ -90,8 +109,8 @@ class StandingAlone {
           const CellIndex next{at.x + dx, at.y + dy};
           if (!map_.rect().contains(next) || map_.states().at(next) != CellState::kOccupied) continue;
           const int index = map_.indexOf(next);
-          if (seen_[static_cast<std::size_t>(index)] != 0) continue;
-          seen_[static_cast<std::size_t>(index)] = 1;
+          if (thing_[static_cast<std::size_t>(index)] != 0) continue;
+          thing_[static_cast<std::size_t>(index)] = number;
           open_.push_back(index);
         }
     }
@@ -142,7 +161,8 @@ class StandingAlone {
   }
 
   const planning::CostMap& map_;
-  std::vector<std::uint8_t> seen_;
+  std::vector<int> thing_;       ///< Number of the thing that a cell belongs to, from 1; 0: none.
+  std::vector<bool> too_large_;  ///< Of each thing.
   std::vector<int> open_;
   double most_cells_;
 };
@@ -171,7 +191,7 @@ void WhoMayGo::remember(std::span<const common::DynamicObstacle> people, const p
   });
 }
 
-std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m) const {
+std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m) {
   std::vector<MayGo> things;
   const auto known = [&](const Eigen::Vector2d& place_map_m) {
     return std::any_of(things.begin(), things.end(), [&](const MayGo& t) { return t.disc.covers(place_map_m); });
@@ -188,7 +208,14 @@ std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Ei
         things.push_back({{cell_map_m, common::kPersonInMap_m}, "something that was not there before"});
       }
   }
-  for (const common::Disc& disc : StandingAlone(map).find())
+  StandingAlone standing(map);
+  for (const common::Disc& disc : standing.find()) {
+    std::erase_if(stood_,
+                  [&](const common::Disc& one) { return (one.center_map_m - disc.center_map_m).norm() < kSame_m; });
+    if (stood_.size() < kMostPeople) stood_.push_back(disc);
+  }
+  std::erase_if(stood_, [&](const common::Disc& one) { return !anythingIn(map, one) || standing.isPartOfMore(one); });
+  for (const common::Disc& disc : stood_)
     if (!known(disc.center_map_m)) things.push_back({disc, "something as wide as a person", false});
   return things;
 }

@@ -32,15 +32,17 @@ class WhoMayGo {
   /// Once for each update of the map.
   void remember(std::span<const common::DynamicObstacle> people, const planning::CostMap& map);
 
-  /// What may go in that map. `flown_map_m` is the vehicle's trail: what stands in it came later.
-  std::vector<MayGo> in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m) const;
+  /// What may go in that map. `flown_map_m` is the vehicle's trail: what stands in it came later. What has once stood
+  /// alone is remembered: of somebody who sways a laser soon draws pieces, none of which is as wide as a person.
+  std::vector<MayGo> in(const planning::CostMap& map, std::span<const Eigen::Vector2d> flown_map_m);
 
  private:
   struct Person {
     int id = 0;
     Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
   };
-  std::vector<Person> people_;  ///< Where they last moved, the newest last.
+  std::vector<Person> people_;       ///< Where they last moved, the newest last.
+  std::vector<common::Disc> stood_;  ///< What stood alone, and has not gone.
 };
 
 /// The grid as if all of them had gone, with room for a hull in what they hide.

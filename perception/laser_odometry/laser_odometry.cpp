@@ -8,6 +8,7 @@
 #include "common/config_fields.hpp"
 #include "common/small_matrices.hpp"
 #include "common/validation.hpp"
+#include "perception/projection/leaning_walls.hpp"
 
 namespace swiftlet::perception {
 
@@ -38,6 +39,9 @@ constexpr double kMaxReferenceRotation_deg = 60.0;
 constexpr double kLevelTilt_deg = 2.0;
 /// A tilted scan joins the local map when its overlap is this much smaller than a level one's would have to be.
 constexpr double kTiltedOverlapMargin = 0.15;
+/// The local map is a section at one height. Among leaning walls it is drawn anew when the vehicle has climbed this
+/// far, and after this time, as their planes become known better.
+constexpr double kSection_m = 0.1, kSection_s = 0.5;
 /// Key scans kept in the local map (16 and 32 were no better: docs/decisions/slam.md#017).
 constexpr int kLocalMapScans = 8;
 
@@ -127,7 +131,8 @@ struct LaserOdometry::Impl {
     bool otherwise = false;
   };
 
-  explicit Impl(const LaserOdometryConfig& config_in) : config(config_in), matcher(makeMatcher(config_in.matcher)) {}
+  Impl(const LaserOdometryConfig& config_in, const LeaningWalls* walls_in)
+      : config(config_in), matcher(makeMatcher(config_in.matcher)), walls(walls_in) {}
 
   std::optional<RelativePose> start(const ProjectedScan& scan);
   SearchWindow usualWindow(common::Time now) const;
@@ -142,9 +147,20 @@ struct LaserOdometry::Impl {
   RelativePose relativeTo(const KeyScan& reference, const ProjectedScan& scan, const MatchResult& match) const;
   bool shouldJoin(const RelativePose& relative, const ProjectedScan& scan, const MatchResult& match) const;
   void drawLocalMap();
+  bool amongLeaningWalls() const { return walls != nullptr && walls->any(); }
+  void draw(const KeyScan& key);
+  void chooseSection(const ProjectedScan& scan);
+  bool isDoubtedInClimb(const ProjectedScan& scan, const MatchResult& match);
 
   LaserOdometryConfig config;
   std::unique_ptr<ScanMatcher> matcher;
+  const LeaningWalls* walls;
+  /// Of the local map among leaning walls.
+  struct Section {
+    double height_odom_m = 0.0;
+    common::Time chosen;
+    std::optional<common::Time> doubted_since;  ///< In a climb; until a scan fits well again.
+  } section;
   LaserOdometryCounts counts;
   std::deque<KeyScan> key_scans;  ///< The last one is the reference.
   common::Time last_stamp, last_match;
@@ -158,7 +174,23 @@ struct LaserOdometry::Impl {
 
 void LaserOdometry::Impl::drawLocalMap() {
   matcher->clearReference();
-  for (const KeyScan& key : key_scans) matcher->addReference(key.scan, key.T_local_body);
+  for (const KeyScan& key : key_scans) draw(key);
+}
+
+void LaserOdometry::Impl::draw(const KeyScan& key) {
+  if (amongLeaningWalls())
+    matcher->addReference(walls->sectionAt(key.scan, section.height_odom_m).scan, key.T_local_body);
+  else
+    matcher->addReference(key.scan, key.T_local_body);
+}
+
+void LaserOdometry::Impl::chooseSection(const ProjectedScan& scan) {
+  const double height_m = scan.T_odom_body.position_m.z();
+  if (std::abs(height_m - section.height_odom_m) <= kSection_m && (scan.stamp - section.chosen).seconds() <= kSection_s)
+    return;
+  section.height_odom_m = height_m;
+  section.chosen = scan.stamp;
+  drawLocalMap();
 }
 
 void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_local_body,
@@ -166,7 +198,7 @@ void LaserOdometry::Impl::addKeyScan(const ProjectedScan& scan, const Pose2& T_l
   ++counts.references;
   key_scans.push_back({scan.stamp, scan, T_local_body, covariance_local});
   if (static_cast<int>(key_scans.size()) <= kLocalMapScans) {
-    matcher->addReference(scan, T_local_body);
+    draw(key_scans.back());
     return;
   }
   // Half of the key scans are dropped at once, so that the map is rarely redrawn.
@@ -306,7 +338,20 @@ bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const Project
   return !tilted || match.overlap < kMinOverlap - kTiltedOverlapMargin;
 }
 
-LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+/// Whether a scan fits badly because the vehicle climbs between walls that lean: some of them agree with a motion that
+/// was none. While their planes are being learned, which takes a few centimetres of height, inertia knows better.
+bool LaserOdometry::Impl::isDoubtedInClimb(const ProjectedScan& scan, const MatchResult& match) {
+  constexpr double kClimbed_m = 0.03, kFitsWell = 0.8, kLearned_s = 0.3;
+  if (amongLeaningWalls()) return false;  // Their planes are known.
+  if (match.quality >= kFitsWell) section.doubted_since.reset();
+  const double climbed_m = scan.T_odom_body.position_m.z() - key_scans.back().scan.T_odom_body.position_m.z();
+  if (match.quality >= kFitsWell || std::abs(climbed_m) < kClimbed_m) return false;
+  if (!section.doubted_since) section.doubted_since = scan.stamp;
+  return (scan.stamp - *section.doubted_since).seconds() < kLearned_s;
+}
+
+LaserOdometry::LaserOdometry(const LaserOdometryConfig& config, const LeaningWalls* walls)
+    : impl_(std::make_unique<Impl>(config, walls)) {}
 LaserOdometry::~LaserOdometry() = default;
 LaserOdometry::LaserOdometry(LaserOdometry&&) noexcept = default;
 LaserOdometry& LaserOdometry::operator=(LaserOdometry&&) noexcept = default;
@@ -352,10 +397,17 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   if (other) other_guess = self.guessOf(T_last_odom * other->T_odom_body, other->window);
   const Pose2 T_last_now = T_last_odom * T_odom_body;
   const Impl::Guess guess = self.guessOf(T_last_now, first_window.value_or(self.usualWindow(scan.stamp)));
-  Impl::Found found = self.find(scan, guess, other_guess);
+  std::optional<LeaningWalls::Section> level;
+  if (self.amongLeaningWalls()) {
+    self.chooseSection(scan);
+    level = self.walls->sectionAt(scan, self.section.height_odom_m);
+  }
+  const ProjectedScan& matched = level ? level->scan : scan;
+  Impl::Found found = self.find(matched, guess, other_guess);
   const Pose2 held_T_local_now = self.held_T_local_body * T_last_now;
   if (self.refused_since && (scan.stamp - *self.refused_since).seconds() >= kRefused_s)
-    found = self.findWhereHeld(scan, found, {held_T_local_now, guess.window});
+    found = self.findWhereHeld(matched, found, {held_T_local_now, guess.window});
+  if (self.walls != nullptr && self.isDoubtedInClimb(scan, found.match)) found.margin = -1.0;
   const auto& [match, margin, otherwise] = found;
   if (margin < 0.0) {
     ++self.counts.failures;
@@ -374,6 +426,13 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
 
   RelativePose relative = self.relativeTo(self.key_scans.back(), scan, match);
   relative.otherwise = otherwise;
+  if (level) {
+    // A lean is known to some fifth, and the error lasts as long as a tilt: for some ten scans.
+    constexpr double kMovedShare = 0.6, kRange_m = 4.0;
+    constexpr double kFits = 0.9, kOff_m = 0.5;
+    const double off_m = kMovedShare * level->moved_m + kOff_m * std::max(0.0, kFits - match.quality);
+    relative.covariance += common::planarCovariance(off_m, off_m / kRange_m);
+  }
   if (self.shouldJoin(relative, scan, match)) {
     relative.reference_changed = true;
     // Along its unobservable motion the key scan itself defines the map. Its guess may have drifted relative to

@@ -16,6 +16,8 @@
 
 namespace swiftlet::perception {
 
+class LeaningWalls;
+
 /// The pose of the scan at `to` relative to the reference key scan at `from`.
 ///
 /// The filter keeps a clone of its pose at `from`. When `reference_changed` is set, this measurement is still relative
@@ -72,7 +74,8 @@ struct LaserOdometryCounts {
 /// Not thread-safe.
 class LaserOdometry {
  public:
-  explicit LaserOdometry(const LaserOdometryConfig& config);
+  /// `walls` says which walls do not stand upright, and must outlive the odometry; null: all of them do.
+  explicit LaserOdometry(const LaserOdometryConfig& config, const LeaningWalls* walls = nullptr);
   ~LaserOdometry();
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;

@@ -250,6 +250,17 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;
   EXPECT_GE(answer.blockage->frontiers, 1);
   EXPECT_EQ(blockedFrontiers(answer).size(), static_cast<std::size_t>(answer.blockage->frontiers));
+
+  // Swaying, they are drawn in pieces, each of which could be anything.
+  for (int y = 36; y < 45; ++y)
+    for (int x = 76; x < 85; ++x)
+      if (common::occupancy::isOccupied(grid->at({x, y})) && (x + y) % 3 != 0) grid->set({x, y}, -100);
+  grid->set(grid->cellAt(4.0, 1.9), common::occupancy::kMaxSteps);
+  grid->set(grid->cellAt(4.0, 2.1), common::occupancy::kMaxSteps);
+  answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  ASSERT_TRUE(answer.exploration->done);
+  ASSERT_TRUE(answer.blockage) << "nobody has gone";
+  EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;
 }
 
 /// A piece of a wall as wide as a person, beside which nothing was seen, is no one who may go.
