@@ -22,8 +22,8 @@ using common::TopologicalMap;
 /// A given passage of that kind, or a given zone, that is this near to a found one is the same.
 constexpr double kSamePassage_m = 0.5, kSameCorner_m = 0.1;
 
-double metres(double value) { return std::round(1e3 * value) * 1e-3; }
-double degrees(double value_rad) { return std::round(1e2 * value_rad / common::kRadPerDeg) * 1e-2; }
+double metres(double value) { return std::round(1e3 * value) / 1e3; }
+double degrees(double value_rad) { return std::round(1e2 * value_rad / common::kRadPerDeg) / 1e2; }
 
 class MapMaker {
  public:
