@@ -22,8 +22,8 @@ using common::TopologicalMap;
 /// A given passage of that kind, or a given zone, that is this near to a found one is the same.
 constexpr double kSamePassage_m = 0.5, kSameCorner_m = 0.1;
 
-double metres(double value) { return std::round(1e3 * value) * 1e-3; }
-double degrees(double value_rad) { return std::round(1e2 * value_rad / common::kRadPerDeg) * 1e-2; }
+double metres(double value) { return std::round(1e3 * value) / 1e3; }
+double degrees(double value_rad) { return std::round(1e2 * value_rad / common::kRadPerDeg) / 1e2; }
 
 class MapMaker {
  public:
@@ -52,11 +52,15 @@ class MapMaker {
   }
 
  private:
-  /// "window_3"; with another number if that name is taken.
-  std::string freeName(const std::string& wanted) {
-    std::string base = wanted;
+  /// "landing_pad_4": as an entry of a mission may be called.
+  static std::string entryName(std::string name) {
     std::replace_if(
-        base.begin(), base.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+  }
+  /// The name, or one with a further number if it is taken.
+  std::string freeName(const std::string& wanted) {
+    const std::string base = entryName(wanted);
     std::string name = base;
     for (int i = 2; isGiven(name) || !taken_.insert(name).second; ++i) name = base + "_" + std::to_string(i);
     return name;
@@ -122,7 +126,7 @@ class MapMaker {
       for (const common::TreePortView& port : node.ports) {
         if (port.name != "goal" || !port.entry.empty() || !port.value) continue;
         const auto value = tree::parseValue(*port.value, tree::PortType::kPoint, {});
-        if (!value) continue;
+        if (!value || isGiven(entryName(node.name))) continue;
         const auto& point = std::get<tree::Point>(*value);
         made_.places.push_back(
             {freeName(node.name), "", metres(point.x), metres(point.y), metres(point.z.value_or(0.0)), 0.0, 0.0});

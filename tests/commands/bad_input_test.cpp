@@ -306,8 +306,9 @@ TEST_P(FullDisk, IsReportedWithTheFileAndEndsNoFlight) {
   for (const auto& entry : fs::directory_iterator(path("run"))) {
     const std::string name = entry.path().filename().string(), text = readText(entry.path());
     SCOPED_TRACE(name);
-    EXPECT_THAT(name, testing::AnyOf("mission.json", "report.html", "events.jsonl", "trajectory.tum", "config.yaml",
-                                     "map.pgm", "map.yaml", "map.png", "ground_truth.tum", "nature.yaml"))
+    EXPECT_THAT(
+        name, testing::AnyOf("mission.json", "report.html", "events.jsonl", "trajectory.tum", "config.yaml", "map.pgm",
+                             "map.yaml", "map.png", "ground_truth.tum", "nature.yaml", "topological_map.yaml"))
         << "was left behind";
     if (name == "mission.json") {
       EXPECT_TRUE(nlohmann::json::accept(text));

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "common/topological_map.hpp"
 #include "interfaces/files/json_lines.hpp"
 #include "interfaces/files/map_server.hpp"
 #include "interfaces/files/tum.hpp"
@@ -129,6 +130,50 @@ TEST(RunFolder, KeepsTheMapsAndPhotographsOfTheMissionAndANewRunRemovesThem) {
   EXPECT_EQ(place.at("camera_map_m"), json({1.0, 2.0, 1.5}));
   RunFolder next(folder.path() / "run", kInfo, "");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "run" / "photo-01-door.jpg"));
+}
+
+TEST(RunFolder, KeepsWhatWasRecognizedAndANewRunRemovesIt) {
+  const ScratchFolder folder;
+  {
+    RunFolder run(folder.path() / "run", kInfo, "");
+    Flight flight;
+    common::RecognizedObject window;
+    window.id = 3;
+    window.what = "window";
+    window.T_map_object.position_m = {1.25, -2.0, 1.1};
+    window.passage = common::Passage::kOpen;
+    window.looks = 4;
+    window.confirmed = true;
+    common::RecognizedObject candidate;
+    candidate.id = 4;
+    candidate.what = "opening";
+    test::Layers layers = flight.layers(MissionState::kRunning, "explore");
+    layers.objects = std::make_shared<const common::ObjectsLayer>(common::ObjectsLayer{{window, candidate}});
+    run.world(layers.world());
+    run.saveObjectPicture(window, std::vector<std::uint8_t>{0xff, 0xd8, 0xff, 0xe0});
+    common::TopologicalMap places;
+    places.places.push_back({.name = "kitchen"});
+    run.savePlaces(places);
+    run.show(ReportPictures{kPng, "", {}});
+    run.finish({});
+    EXPECT_FALSE(run.failure());
+  }
+  const json objects = json::parse(bytesOf(folder / "run/objects.json"))["objects"];
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(objects[0]["passage"], "open");
+  EXPECT_EQ(objects[0]["position_map_m"], json({1.25, -2.0, 1.1}));
+  EXPECT_EQ(objects[0]["covariance_m2"].size(), 9u);
+  const json summary = json::parse(bytesOf(folder / "run/mission.json"))["objects"];
+  ASSERT_EQ(summary.size(), 1u) << "without the candidate";
+  EXPECT_EQ(summary[0]["label"], "window 3");
+  const std::string report = bytesOf(folder / "run/report.html");
+  EXPECT_THAT(report, HasSubstr("window 3 at (1.25, -2.00, 1.10)"));
+  EXPECT_THAT(report, HasSubstr("1 seen from too few places"));
+  EXPECT_TRUE(fs::exists(folder.path() / "run/object-03-window.jpg"));
+  EXPECT_EQ(common::readTopologicalMap((folder.path() / "run/topological_map.yaml").string()).names().size(), 1u);
+  RunFolder next(folder.path() / "run", kInfo, "");
+  for (const char* name : {"objects.json", "object-03-window.jpg", "topological_map.yaml"})
+    EXPECT_FALSE(fs::exists(folder.path() / "run" / name)) << name;
 }
 
 TEST(RunFolder, ContainsEveryFile) {
