@@ -88,6 +88,7 @@ void BehaviorRecorder::world(const common::World& world) {
   followed_map_m_ = world.people->followed_map_m;
   record_.targets = world.targets;
   present_.map = world.map->grid;
+  present_.map3d = world.map3d;
   present_.keep_out = world.map->keep_out;
   if (zones_ == world.map->keep_out) return;
   zones_ = world.map->keep_out;
