@@ -1,6 +1,7 @@
 // Flies a tour through places that see all frontiers.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -23,6 +24,14 @@ constexpr std::size_t kMaxEvaluated = 40, kMaxStops = 24;
 constexpr double kCover_m = 4.8;
 /// Another tour must save this share of what is left of the present one.
 constexpr double kHysteresis = 0.10;
+
+double P(const char* name, double value) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::atof(text) : value;
+}
+const double pH = P("P_H", 0.10), pHS = P("P_HS", 0.0), pHome = P("P_HOME", 1.0), pCover = P("P_COVER", 4.8),
+             pLat = P("P_LAT", 0.0), pLatU = P("P_LATU", 0.0), pShare = P("P_SHARE", 0.0), pLook = P("P_LOOK", 1.0),
+             pRef = P("P_REF", 0.0), pGx = P("P_GX", 0.5), pStops = P("P_STOPS", 24);
 
 /// A viewpoint of the tour.
 struct Stop {
@@ -51,7 +60,7 @@ class TourChoice {
     bool keep = false;
     if (has_current) {
       std::vector<std::size_t> kept = shortestTour(costs, 1);
-      keep = tourCost(costs, kept) * (1.0 - kHysteresis) <= tourCost(costs, order);
+      keep = tourCost(costs, kept) * (1.0 - pH) - pHS <= tourCost(costs, order);
       if (keep) order = std::move(kept);
     }
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -64,7 +73,23 @@ class TourChoice {
   void evaluate() {
     for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
       if (options_.size() >= kMaxEvaluated) break;
-      if (const auto best = viewpoints_.bestOf(seen)) options_.push_back(*best);
+      auto best = viewpoints_.bestOf(seen);
+      if (best && pShare > 0.0) {
+        double most = 0.0;
+        std::vector<ViewpointOption> all;
+        for (const Lookout& lookout : seen.lookouts) {
+          if (survey_.lookedFrom(lookout)) continue;
+          all.push_back(viewpoints_.optionAt(seen.number, lookout));
+          most = std::max(most, all.back().view.gain_m2);
+        }
+        const ViewpointOption* chosen = nullptr;
+        for (const ViewpointOption& option : all) {
+          if (option.view.gain_m2 < std::max(ViewpointOptions::kMinGain_m2, pShare * most)) continue;
+          if (chosen == nullptr || option.lookout.path_m < chosen->lookout.path_m) chosen = &option;
+        }
+        if (chosen != nullptr) best = *chosen;
+      }
+      if (best) options_.push_back(*best);
     }
   }
 
@@ -89,7 +114,7 @@ class TourChoice {
       return static_cast<std::size_t>(
           std::count_if(covers[i].begin(), covers[i].end(), [&](std::size_t j) { return !is_covered[j]; }));
     };
-    while (stops_.size() < kMaxStops) {
+    while (static_cast<double>(stops_.size()) < pStops) {
       std::size_t best = 0, most = 0;
       if (current_first && stops_.empty()) {
         most = newOf(0);
@@ -112,7 +137,7 @@ class TourChoice {
     const Point begin_m = map_.centerOf(from.lookout.place), end_m = map_.centerOf(cells[cells.size() / 2]);
     const Point line = end_m - begin_m;
     const double length_m = line.norm();
-    if (length_m > kCover_m) return false;
+    if (length_m > pCover) return false;
     if (std::abs(common::wrapAngle(std::atan2(line.y(), line.x()) - from.view.yaw_map_rad)) > half_field_of_view_rad_)
       return false;
     const int steps = static_cast<int>(length_m / (0.5 * map_.resolution_m()));
@@ -133,9 +158,14 @@ class TourChoice {
       for (std::size_t j = 0; j < stops_.size(); ++j)
         costs.between(i + 1, j + 1) = legTime_s(legs_m[j], to.view.yaw_map_rad, stops_[j].viewpoint.view.yaw_map_rad);
     }
+    double gain_m2 = 0.0;
+    for (const Stop& stop : stops_) gain_m2 += std::pow(stop.viewpoint.view.gain_m2, pGx);
+    for (std::size_t i = 0; i < stops_.size(); ++i)
+      costs.waiting(i + 1) = pLat * std::pow(stops_[i].viewpoint.view.gain_m2, pGx) / gain_m2 +
+                             pLatU / static_cast<double>(stops_.size());
     if (const auto home = homePlace()) {
       const std::vector<double> home_m = coarse.between_m(*home, places);
-      for (std::size_t i = 0; i < stops_.size(); ++i) costs.toEnd(i + 1) = std::min(kFar_s, home_m[i] / kTravelSpeed_m_s);
+      for (std::size_t i = 0; i < stops_.size(); ++i) costs.toEnd(i + 1) = std::min(kFar_s, pHome * home_m[i] / kTravelSpeed_m_s);
     }
     return costs;
   }
@@ -148,7 +178,7 @@ class TourChoice {
   }
 
   static double legTime_s(double path_m, double from_yaw_rad, double to_yaw_rad) {
-    return std::min(kFar_s, travelTime_s(path_m, from_yaw_rad, to_yaw_rad) + kBrake_s);
+    return std::min(kFar_s, travelTime_s(path_m, from_yaw_rad, to_yaw_rad) + pLook);
   }
 
   /// Instead of an infinite time where no coarse path leads: longer than any flight.

@@ -24,7 +24,7 @@ TEST_P(Help, DescribesTheCommandWithAnExample) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize", "map",
-                                         "map3d", "localize", "evaluate", "nodes", "migrate"),
+                                         "map3d", "localize", "evaluate", "nodes", "migrate", "explore-bench"),
                          [](const auto& command) { return command.param; });
 
 TEST(Usage, GeneralHelpNamesEachCommand) {
