@@ -45,7 +45,8 @@ std::vector<std::pair<std::string, planning::ExplorerKind>> chosenExplorers(cons
   if (names.empty()) return kExplorers;
   std::vector<std::pair<std::string, planning::ExplorerKind>> chosen;
   for (const std::string& name : names) {
-    const auto found = std::find_if(kExplorers.begin(), kExplorers.end(), [&](const auto& e) { return e.first == name; });
+    const auto found =
+        std::find_if(kExplorers.begin(), kExplorers.end(), [&](const auto& e) { return e.first == name; });
     if (found == kExplorers.end())
       throw InputError({}, "--explorer", Message("explore-bench.explorer", "`{}` is no explorer", name),
                        "nearest_frontier, utility or tour");
@@ -78,12 +79,14 @@ std::optional<Eigen::Vector2d> askedStart(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const std::vector<double> numbers = listedNumbers(text);
   if (numbers.size() != 2)
-    throw InputError({}, "--start", Message("explore-bench.start", "`{}` is no place, two finite numbers in metres", text),
+    throw InputError({}, "--start",
+                     Message("explore-bench.start", "`{}` is no place, two finite numbers in metres", text),
                      "write \"x;y\"");
   return Eigen::Vector2d(numbers[0], numbers[1]);
 }
 
-BenchResult compareIn(const std::string& file, const ExploreBenchOptions& options, evaluation::FlatFlightConfig config) {
+BenchResult compareIn(const std::string& file, const ExploreBenchOptions& options,
+                      evaluation::FlatFlightConfig config) {
   const BenchWorld world = readBenchWorld(file, options.worlds);
   const evaluation::FlatBuilding building(world.plan, options.resolution_m);
   planning::CostMap::Config plain;
@@ -97,8 +100,7 @@ BenchResult compareIn(const std::string& file, const ExploreBenchOptions& option
   const auto start = evaluation::startIn(map, asked ? *asked : world.start_m.value_or(Eigen::Vector2d::Zero()));
   if (!start) throw InputError({file}, "", Message("explore-bench.no-start", "the hull fits nowhere in it"));
   BenchResult result{world.name, *start, 0.0, {}};
-  if (!options.no_bound)
-    result.bound_m = evaluation::knownTour(building, map, *start, config.laser_range_m).length_m;
+  if (!options.no_bound) result.bound_m = evaluation::knownTour(building, map, *start, config.laser_range_m).length_m;
   for (const auto& [name, kind] : chosenExplorers(options.explorers)) {
     config.explorer.kind = kind;
     result.flights.push_back({name, evaluation::exploreFlat(building, *start, config)});
@@ -132,7 +134,8 @@ void addExploreBench(Command& program) {
   command.arguments("maps", options->worlds.places,
                     "Floor plans as map_server reads them (.yaml), grids of the Moving AI benchmarks (.map), worlds "
                     "(.sdf, .world), or folders of them.");
-  command.option("--explorer", options->explorers, "Only this one: nearest_frontier, utility or tour. May be repeated.");
+  command.option("--explorer", options->explorers,
+                 "Only this one: nearest_frontier, utility or tour. May be repeated.");
   command.option("--system", options->system, "Profile of the vehicle, its laser, its speed and its planner.");
   command.option("--start", options->start,
                  "\"x;y\" in the map, in metres: the nearest place that the hull can fly from. \"0;0\", or the middle "

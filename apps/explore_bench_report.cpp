@@ -51,12 +51,14 @@ std::string benchText(const std::vector<BenchResult>& results) {
   for (const BenchResult& result : results) {
     text += fmt::format("{} from \"{:.2f};{:.2f}\"{}\n", result.world, result.start_m.x(), result.start_m.y(),
                         result.bound_m > 0.0 ? fmt::format(", bound {:.1f} m", result.bound_m) : "");
-    text += "  explorer           explore s   path m    home s   path m  of bound  calls  viewpoints  longest call ms\n";
+    text +=
+        "  explorer           explore s   path m    home s   path m  of bound  calls  viewpoints  longest call ms\n";
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;
-      text += fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16.0f}{}\n", entry.explorer,
-                          f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), f.calls,
-                          f.viewpoints, 1e3 * f.longest_call_s, f.complete ? "" : "  FAILED: " + f.failure);
+      text +=
+          fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16.0f}{}\n", entry.explorer,
+                      f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), f.calls,
+                      f.viewpoints, 1e3 * f.longest_call_s, f.complete ? "" : "  FAILED: " + f.failure);
     }
   }
   if (results.empty()) return text;
@@ -65,10 +67,11 @@ std::string benchText(const std::vector<BenchResult>& results) {
     for (std::size_t b = a + 1; b < explorers; ++b) {
       const Gain gain = gainOf(results, a, b);
       if (gain.worlds == 0) continue;
-      text += fmt::format("{} against {}: {:.2f}x faster, {:.2f}x with the flight home (geometric means of {}); least "
-                          "{:.2f}x in {}, slower in {}\n",
-                          results.front().flights[b].explorer, results.front().flights[a].explorer, gain.exploring,
-                          gain.with_home, gain.worlds, gain.least, gain.least_in, gain.slower);
+      text += fmt::format(
+          "{} against {}: {:.2f}x faster, {:.2f}x with the flight home (geometric means of {}); least "
+          "{:.2f}x in {}, slower in {}\n",
+          results.front().flights[b].explorer, results.front().flights[a].explorer, gain.exploring, gain.with_home,
+          gain.worlds, gain.least, gain.least_in, gain.slower);
     }
   return text;
 }

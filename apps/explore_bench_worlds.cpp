@@ -99,7 +99,8 @@ BenchWorld readBenchWorld(const std::string& file, const BenchWorldOptions& opti
         break;
       case MapKind::kOctree:
       case MapKind::kCloud:
-        throw InputError({file}, "", Message("explore-bench.in-space", "is a map in space, explorers are compared in the plane"),
+        throw InputError({file}, "",
+                         Message("explore-bench.in-space", "is a map in space, explorers are compared in the plane"),
                          "make a world of it with `swiftlet world`, and give that");
     }
   }

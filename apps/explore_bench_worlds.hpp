@@ -19,8 +19,8 @@ struct BenchWorld {
 };
 
 struct BenchWorldOptions {
-  std::vector<std::string> places;     ///< Files, and folders that are searched with all folders below.
-  std::optional<double> cell_m;        ///< Of the cells of a grid without metres.
+  std::vector<std::string> places;       ///< Files, and folders that are searched with all folders below.
+  std::optional<double> cell_m;          ///< Of the cells of a grid without metres.
   std::vector<std::string> model_paths;  ///< Of the models of worlds.
 };
 

@@ -18,7 +18,7 @@
 namespace swiftlet::common {
 struct Map3dLayer;
 struct World;
-}
+}  // namespace swiftlet::common
 
 namespace swiftlet::evaluation {
 

@@ -107,9 +107,9 @@ std::vector<UnseenPlace> placesOf(VoxelMap& voxels) {
         open.pop_back();
         ++count;
         sum_m += voxels.centerOf(at);
-        for (const VoxelIndex next : {VoxelIndex{at.x + 1, at.y, at.z}, VoxelIndex{at.x - 1, at.y, at.z},
-                                      VoxelIndex{at.x, at.y + 1, at.z}, VoxelIndex{at.x, at.y - 1, at.z},
-                                      VoxelIndex{at.x, at.y, at.z + 1}, VoxelIndex{at.x, at.y, at.z - 1}}) {
+        for (const VoxelIndex next :
+             {VoxelIndex{at.x + 1, at.y, at.z}, VoxelIndex{at.x - 1, at.y, at.z}, VoxelIndex{at.x, at.y + 1, at.z},
+              VoxelIndex{at.x, at.y - 1, at.z}, VoxelIndex{at.x, at.y, at.z + 1}, VoxelIndex{at.x, at.y, at.z - 1}}) {
           if (voxels.evidence(next) != kLeft) continue;
           voxels.set(next, kCouldBeSeen);
           open.push_back(next);
@@ -130,13 +130,12 @@ void lookAllAround(const common::Pose3& T_map_body_level, const TrueWorld& world
   const common::PinholeCamera pinhole = world.rgbd_camera->camera();
   const common::Pose3 T_world_body = T_world_map * T_map_body_level;
   for (int turn = 0; turn < kTurns; ++turn) {
-    const Eigen::Quaterniond yaw(
-        Eigen::AngleAxisd(2.0 * std::numbers::pi * turn / kTurns, Eigen::Vector3d::UnitZ()));
+    const Eigen::Quaterniond yaw(Eigen::AngleAxisd(2.0 * std::numbers::pi * turn / kTurns, Eigen::Vector3d::UnitZ()));
     const common::Pose3 T_world_camera =
         T_world_body * common::Pose3{yaw, Eigen::Vector3d::Zero()} * world.T_body_camera;
     for (int row = 0; row < kRows; ++row) {
-      const Eigen::Vector3d along = pinhole.point_camera_m(
-          0.5 * (pinhole.width_px - 1), (row + 0.5) / kRows * pinhole.height_px - 0.5, 1.0);
+      const Eigen::Vector3d along =
+          pinhole.point_camera_m(0.5 * (pinhole.width_px - 1), (row + 0.5) / kRows * pinhole.height_px - 0.5, 1.0);
       const double range_m = world.rgbd_camera->range_max_m * along.norm();
       const Eigen::Vector3d direction = T_world_camera.rotation * along.normalized();
       const simulation::Hit hit = world.rays->cast(T_world_camera.position_m, direction, range_m);
@@ -161,8 +160,8 @@ bool isKnownIn(const VoxelMap& map, const Eigen::Vector3d& center_m, double side
 
 std::string textOf(const ExploredCheck& check, const char* what, const char* unit) {
   if (check.left.empty()) return fmt::format("all of {:.1f} {} {} was seen", check.amount, unit, what);
-  std::string text = fmt::format("{:.1f} % of {:.1f} {} {} was not seen:", 100.0 * check.unseen_share, check.amount,
-                                 unit, what);
+  std::string text =
+      fmt::format("{:.1f} % of {:.1f} {} {} was not seen:", 100.0 * check.unseen_share, check.amount, unit, what);
   for (std::size_t i = 0; i < std::min(kMostNamed, check.left.size()); ++i) {
     const UnseenPlace& place = check.left[i];
     text += fmt::format("{} {:.2f} {} at ({:.2f}, {:.2f}, {:.2f})", i == 0 ? "" : ",", place.amount, unit,

@@ -23,8 +23,8 @@ FlatBuilding::FlatBuilding(const common::OccupancyGrid& plan, double resolution_
   for (int y = rect_.begin.y; y < rect_.end.y; ++y)
     for (int x = rect_.begin.x; x < rect_.end.x; ++x)
       for (int i = 0; i < samples * samples; ++i) {
-        const Eigen::Vector2d point_m = resolution_m * Eigen::Vector2d(x + (i % samples + 0.5) / samples,
-                                                                       y + (i / samples + 0.5) / samples);
+        const Eigen::Vector2d point_m =
+            resolution_m * Eigen::Vector2d(x + (i % samples + 0.5) / samples, y + (i / samples + 0.5) / samples);
         if (!common::occupancy::isFree(plan.at(plan.cellAt(point_m)))) wall_[indexOf({x, y})] = 1;
       }
 }
@@ -66,8 +66,8 @@ std::optional<Eigen::Vector2d> startIn(const planning::CostMap& map, const Eigen
   const bool inside = (near_m.array() > low_m.array()).all() && (near_m.array() < high_m.array()).all();
   const Eigen::Vector2d middle_m = inside ? near_m : Eigen::Vector2d(0.5 * (low_m + high_m));
   const auto farness = [&](int index) { return (map.centerOf(map.cellOf(index)) - middle_m).squaredNorm(); };
-  const int best = *std::min_element(largest.begin(), largest.end(),
-                                     [&](int a, int b) { return farness(a) < farness(b); });
+  const int best =
+      *std::min_element(largest.begin(), largest.end(), [&](int a, int b) { return farness(a) < farness(b); });
   return map.centerOf(map.cellOf(best));
 }
 

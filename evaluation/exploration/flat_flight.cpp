@@ -215,8 +215,10 @@ class Exploration {
     if (time_s_ - mapped_s_ < kMapPeriod_s - 1e-9) return false;
     updateMap();
     for (std::size_t i = std::max<std::size_t>(1, mover_.next()); i < mover_.path_m().size(); ++i)
-      if (i > escape_points_ && segmentCost(map_, i == mover_.next() ? mover_.pose().position_m() : mover_.path_m()[i - 1],
-                                            mover_.path_m()[i]).lethal)
+      if (i > escape_points_ &&
+          segmentCost(map_, i == mover_.next() ? mover_.pose().position_m() : mover_.path_m()[i - 1],
+                      mover_.path_m()[i])
+              .lethal)
         return true;
     return false;
   }
@@ -246,8 +248,8 @@ class Exploration {
       return;
     }
     auto path = planner_->plan(map_, mover_.pose().position_m(), result.next->pose_map.position_m());
-    flight_.longest_call_s = std::max(
-        flight_.longest_call_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    flight_.longest_call_s = std::max(flight_.longest_call_s,
+                                      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     if (!path) {
       flight_.failure = "no path to a viewpoint: " + path.error().text;
       return;
@@ -255,8 +257,8 @@ class Exploration {
     if (!result.kept_current) {
       ++flight_.viewpoints;
       looks_s_ = 0.0;
+      current_ = result.next;
     }
-    current_ = result.next;
     escape_points_ = path->escape_points;
     mover_.follow(std::move(path->points_map_m), current_->pose_map.yaw_rad);
   }

@@ -34,9 +34,9 @@ struct FlatFlight {
   double explore_m = 0.0;
   double total_s = 0.0;  ///< With the flight home.
   double total_m = 0.0;
-  double unseen_share = 0.0;  ///< Of the places that the hull can reach with a cell to spare.
-  int calls = 0;              ///< Of the explorer.
-  int viewpoints = 0;         ///< That were flown to.
+  double unseen_share = 0.0;    ///< Of the places that the hull can reach with a cell to spare.
+  int calls = 0;                ///< Of the explorer.
+  int viewpoints = 0;           ///< That were flown to.
   double longest_call_s = 0.0;  ///< Of explorer and planner, on the wall clock.
 };
 

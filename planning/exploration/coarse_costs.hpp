@@ -10,8 +10,8 @@
 
 namespace swiftlet::planning {
 
-/// Cells of about 0.2 m, each as cheap as its cheapest cell of the map that the vehicle reaches. What is lethal around a
-/// wall is wider than the hull, and so than two coarse cells: no coarse path leads through a wall. Not thread-safe.
+/// Cells of about 0.2 m, each as cheap as its cheapest cell of the map that the vehicle reaches. What is lethal around
+/// a wall is wider than the hull, and so than two coarse cells: no coarse path leads through a wall. Not thread-safe.
 class CoarseCosts {
  public:
   /// `from_vehicle` was spread over the whole of `map`. Neither is kept.

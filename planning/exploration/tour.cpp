@@ -20,13 +20,8 @@ Order exactTour(const TourCosts& costs, std::optional<std::size_t> first) {
   const std::size_t stops = costs.stops(), sets = std::size_t{1} << stops;
   std::vector<double> least(sets * stops, kNever);
   std::vector<std::uint8_t> before(sets * stops, 0);
-  // All that is not visited yet waits for the next leg.
-  std::vector<double> factor(sets, 1.0);
-  for (std::size_t set = 0; set < sets; ++set)
-    for (std::size_t s = 0; s < stops; ++s)
-      if ((set >> s & 1U) == 0) factor[set] += costs.waiting(s + 1);
   for (std::size_t s = 0; s < stops; ++s)
-    if (!first || *first == s + 1) least[(std::size_t{1} << s) * stops + s] = factor[0] * costs.between(0, s + 1);
+    if (!first || *first == s + 1) least[(std::size_t{1} << s) * stops + s] = costs.between(0, s + 1);
   for (std::size_t set = 1; set < sets; ++set)
     for (std::size_t at = 0; at < stops; ++at) {
       const double here = least[set * stops + at];
@@ -34,7 +29,7 @@ Order exactTour(const TourCosts& costs, std::optional<std::size_t> first) {
       for (std::size_t next = 0; next < stops; ++next) {
         if ((set >> next & 1U) != 0) continue;
         const std::size_t after = (set | std::size_t{1} << next) * stops + next;
-        const double cost = here + factor[set] * costs.between(at + 1, next + 1);
+        const double cost = here + costs.between(at + 1, next + 1);
         if (cost >= least[after]) continue;
         least[after] = cost;
         before[after] = static_cast<std::uint8_t>(at);
@@ -134,14 +129,13 @@ bool improveByOrOpt(const TourCosts& costs, std::size_t fixed, Order& order) {
 }  // namespace
 
 double tourCost(const TourCosts& costs, const Order& order) {
-  double length = 0.0, waiting = 0.0;
+  double cost = 0.0;
   std::size_t at = 0;
   for (const std::size_t stop : order) {
-    length += costs.between(at, stop);
-    waiting += costs.waiting(stop) * length;
+    cost += costs.between(at, stop);
     at = stop;
   }
-  return length + costs.toEnd(at) + waiting;
+  return cost + costs.toEnd(at);
 }
 
 Order shortestTour(const TourCosts& costs, std::optional<std::size_t> first) {

@@ -1,7 +1,6 @@
 // Flies a tour through places that see all frontiers.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -19,25 +18,14 @@ using Point = Eigen::Vector2d;
 
 /// Frontiers, from the nearest on, for which viewpoints are evaluated in one call, and stops of a tour: what is farther
 /// away hardly changes where to go first.
-constexpr std::size_t kMaxEvaluated = 40, kMaxStops = 24;
+constexpr std::size_t kMostTourFrontiers = 40, kMostTourStops = 24;
 /// A viewpoint covers another frontier only from this near: from farther away too little is seen behind it.
 constexpr double kCover_m = 4.8;
-/// Another tour must save this share of what is left of the present one.
-constexpr double kHysteresis = 0.10;
-
-double P(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::atof(text) : value;
-}
-const double pH = P("P_H", 0.10), pHS = P("P_HS", 0.0), pHome = P("P_HOME", 1.0), pCover = P("P_COVER", 4.8),
-             pLat = P("P_LAT", 0.0), pLatU = P("P_LATU", 0.0), pShare = P("P_SHARE", 0.0), pLook = P("P_LOOK", 1.0),
-             pRef = P("P_REF", 0.0), pGx = P("P_GX", 0.5), pStops = P("P_STOPS", 24);
-
-/// A viewpoint of the tour.
-struct Stop {
-  ViewpointOption viewpoint;
-  std::size_t covered = 0;  ///< Frontiers that it sees, its own one too.
-};
+/// Another tour must save this share of the time of the present one.
+constexpr double kTourHysteresis = 0.10;
+/// The viewpoint that is flown to is kept while this share of what it promised is left to be seen from it: what is seen
+/// on the way there has not to be flown to.
+constexpr double kGainLeft = 0.5;
 
 class TourChoice {
  public:
@@ -60,36 +48,20 @@ class TourChoice {
     bool keep = false;
     if (has_current) {
       std::vector<std::size_t> kept = shortestTour(costs, 1);
-      keep = tourCost(costs, kept) * (1.0 - pH) - pHS <= tourCost(costs, order);
+      keep = tourCost(costs, kept) * (1.0 - kTourHysteresis) <= tourCost(costs, order);
       if (keep) order = std::move(kept);
     }
     for (std::size_t i = 0; i < order.size(); ++i)
-      survey_.score(stops_[order[i] - 1].viewpoint.frontier, 1.0 / static_cast<double>(i + 1));
-    Viewpoint next = viewpoints_.viewpointOf(stops_[order.front() - 1].viewpoint);
+      survey_.score(stops_[order[i] - 1].frontier, 1.0 / static_cast<double>(i + 1));
+    Viewpoint next = viewpoints_.viewpointOf(stops_[order.front() - 1]);
     return survey_.finish(std::move(next), keep);
   }
 
  private:
   void evaluate() {
     for (const SeenFrontier& seen : survey_.seenBy(scout_)) {
-      if (options_.size() >= kMaxEvaluated) break;
-      auto best = viewpoints_.bestOf(seen);
-      if (best && pShare > 0.0) {
-        double most = 0.0;
-        std::vector<ViewpointOption> all;
-        for (const Lookout& lookout : seen.lookouts) {
-          if (survey_.lookedFrom(lookout)) continue;
-          all.push_back(viewpoints_.optionAt(seen.number, lookout));
-          most = std::max(most, all.back().view.gain_m2);
-        }
-        const ViewpointOption* chosen = nullptr;
-        for (const ViewpointOption& option : all) {
-          if (option.view.gain_m2 < std::max(ViewpointOptions::kMinGain_m2, pShare * most)) continue;
-          if (chosen == nullptr || option.lookout.path_m < chosen->lookout.path_m) chosen = &option;
-        }
-        if (chosen != nullptr) best = *chosen;
-      }
-      if (best) options_.push_back(*best);
+      if (options_.size() >= kMostTourFrontiers) break;
+      if (const auto best = viewpoints_.bestOf(seen)) options_.push_back(*best);
     }
   }
 
@@ -97,12 +69,14 @@ class TourChoice {
   bool placeCurrent() {
     std::vector<std::size_t> frontiers;
     for (const ViewpointOption& option : options_) frontiers.push_back(option.frontier);
-    const auto current = viewpoints_.current(frontiers);
+    auto current = viewpoints_.current(frontiers);
+    if (current && current->view.gain_m2 < kGainLeft * input_.current->gain_m2) current.reset();
     if (current) options_.insert(options_.begin(), *current);
     return current.has_value();
   }
 
-  /// Chooses stops that cover all frontiers: again and again the viewpoint that covers most of what is left.
+  /// Chooses stops of the tour that cover all frontiers: again and again the viewpoint that covers most of what is
+  /// left.
   void cover(bool current_first) {
     std::vector<bool> is_covered(options_.size(), false);
     std::vector<std::vector<std::size_t>> covers(options_.size());
@@ -114,7 +88,7 @@ class TourChoice {
       return static_cast<std::size_t>(
           std::count_if(covers[i].begin(), covers[i].end(), [&](std::size_t j) { return !is_covered[j]; }));
     };
-    while (static_cast<double>(stops_.size()) < pStops) {
+    while (stops_.size() < kMostTourStops) {
       std::size_t best = 0, most = 0;
       if (current_first && stops_.empty()) {
         most = newOf(0);
@@ -126,7 +100,7 @@ class TourChoice {
           }
       }
       if (most == 0) break;
-      stops_.push_back({options_[best], most});
+      stops_.push_back(options_[best]);
       for (const std::size_t j : covers[best]) is_covered[j] = true;
     }
   }
@@ -137,7 +111,7 @@ class TourChoice {
     const Point begin_m = map_.centerOf(from.lookout.place), end_m = map_.centerOf(cells[cells.size() / 2]);
     const Point line = end_m - begin_m;
     const double length_m = line.norm();
-    if (length_m > pCover) return false;
+    if (length_m > kCover_m) return false;
     if (std::abs(common::wrapAngle(std::atan2(line.y(), line.x()) - from.view.yaw_map_rad)) > half_field_of_view_rad_)
       return false;
     const int steps = static_cast<int>(length_m / (0.5 * map_.resolution_m()));
@@ -149,23 +123,19 @@ class TourChoice {
   TourCosts costsOfTour() {
     CoarseCosts coarse(map_, survey_.field());
     std::vector<CellIndex> places;
-    for (const Stop& stop : stops_) places.push_back(stop.viewpoint.lookout.place);
+    for (const ViewpointOption& stop : stops_) places.push_back(stop.lookout.place);
     TourCosts costs(stops_.size());
     for (std::size_t i = 0; i < stops_.size(); ++i) {
-      const ViewpointOption& to = stops_[i].viewpoint;
+      const ViewpointOption& to = stops_[i];
       costs.between(0, i + 1) = legTime_s(to.lookout.path_m, input_.pose_map.yaw_rad, to.view.yaw_map_rad);
       const std::vector<double> legs_m = coarse.between_m(places[i], places);
       for (std::size_t j = 0; j < stops_.size(); ++j)
-        costs.between(i + 1, j + 1) = legTime_s(legs_m[j], to.view.yaw_map_rad, stops_[j].viewpoint.view.yaw_map_rad);
+        costs.between(i + 1, j + 1) = legTime_s(legs_m[j], to.view.yaw_map_rad, stops_[j].view.yaw_map_rad);
     }
-    double gain_m2 = 0.0;
-    for (const Stop& stop : stops_) gain_m2 += std::pow(stop.viewpoint.view.gain_m2, pGx);
-    for (std::size_t i = 0; i < stops_.size(); ++i)
-      costs.waiting(i + 1) = pLat * std::pow(stops_[i].viewpoint.view.gain_m2, pGx) / gain_m2 +
-                             pLatU / static_cast<double>(stops_.size());
     if (const auto home = homePlace()) {
       const std::vector<double> home_m = coarse.between_m(*home, places);
-      for (std::size_t i = 0; i < stops_.size(); ++i) costs.toEnd(i + 1) = std::min(kFar_s, pHome * home_m[i] / kTravelSpeed_m_s);
+      for (std::size_t i = 0; i < stops_.size(); ++i)
+        costs.toEnd(i + 1) = std::min(kFar_s, home_m[i] / kTravelSpeed_m_s);
     }
     return costs;
   }
@@ -178,7 +148,7 @@ class TourChoice {
   }
 
   static double legTime_s(double path_m, double from_yaw_rad, double to_yaw_rad) {
-    return std::min(kFar_s, travelTime_s(path_m, from_yaw_rad, to_yaw_rad) + pLook);
+    return std::min(kFar_s, travelTime_s(path_m, from_yaw_rad, to_yaw_rad) + kBrake_s);
   }
 
   /// Instead of an infinite time where no coarse path leads: longer than any flight.
@@ -191,7 +161,7 @@ class TourChoice {
   Scout scout_;
   ViewpointOptions viewpoints_;
   std::vector<ViewpointOption> options_;
-  std::vector<Stop> stops_;
+  std::vector<ViewpointOption> stops_;
 };
 
 }  // namespace

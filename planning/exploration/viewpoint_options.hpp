@@ -47,9 +47,9 @@ class ViewpointOptions {
   double utilityBound(double path_m) const;
 
   Viewpoint viewpointOf(const ViewpointOption& option) const;
-  ViewpointOption optionAt(std::size_t frontier, const Lookout& lookout) const;
 
  private:
+  ViewpointOption optionAt(std::size_t frontier, const Lookout& lookout) const;
   void leaveUnseen(std::size_t frontier, double greatest_gain_m2);
 
   const ExplorationInput& input_;

@@ -51,7 +51,8 @@ TEST_F(ExploredStory, ARoomThatWasLeftOutIsUnseen) {
 }
 
 TEST_F(ExploredStory, TheCertificateNamesWhatIsLeft) {
-  EXPECT_THAT(certificateOf(check(), std::nullopt), testing::MatchesRegex("explored: all of [0-9.]+ m2 reachable was seen"));
+  EXPECT_THAT(certificateOf(check(), std::nullopt),
+              testing::MatchesRegex("explored: all of [0-9.]+ m2 reachable was seen"));
   know(2.0);
   const auto left = check()->left;
   ASSERT_EQ(left.size(), 1u);

@@ -86,8 +86,8 @@ TEST(KnownTour, LeadsIntoEachRoomAndHomeAndNoFartherThanAnyExploration) {
   // The third room is seen through its door at the lower end from about the middle of the second one.
   EXPECT_GT(tour.length_m, 10.0);
   EXPECT_LT(tour.length_m, 24.0);
-  for (const auto kind : {planning::ExplorerKind::kNearestFrontier, planning::ExplorerKind::kUtility,
-                          planning::ExplorerKind::kTour}) {
+  for (const auto kind :
+       {planning::ExplorerKind::kNearestFrontier, planning::ExplorerKind::kUtility, planning::ExplorerKind::kTour}) {
     FlatFlightConfig config;
     config.explorer.kind = kind;
     const FlatFlight flight = exploreFlat(building, start_m, config);

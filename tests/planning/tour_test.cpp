@@ -65,7 +65,8 @@ TEST(Tour, OfManyStopsNoReversalAndNoMoveSavesAnything) {
     for (std::size_t i = 0; i < order.size(); ++i)
       for (std::size_t j = i + 1; j < order.size(); ++j) {
         auto other = order;
-        std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i), other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i),
+                     other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         EXPECT_GE(tourCost(costs, other), cost - 1e-6);
         other = order;
         std::rotate(other.begin() + static_cast<std::ptrdiff_t>(i), other.begin() + static_cast<std::ptrdiff_t>(i) + 1,
