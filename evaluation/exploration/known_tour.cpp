@@ -26,7 +26,7 @@ constexpr int kRays = 720;
 /// Between the places that are to be seen.
 constexpr double kTarget_m = 0.2;
 /// The share of the reachable places that the tour may leave unseen, as explorations may.
-constexpr double kUnseen = 0.01;
+constexpr double kMostUnseen = 0.01;
 
 class TourFinder {
  public:
@@ -72,7 +72,7 @@ class TourFinder {
   }
 
   bool isEnough(std::size_t seen) const {
-    return static_cast<double>(targets_ - seen) <= kUnseen * static_cast<double>(targets_);
+    return static_cast<double>(targets_ - seen) <= kMostUnseen * static_cast<double>(targets_);
   }
 
   /// Again and again the place that sees most of what is left.

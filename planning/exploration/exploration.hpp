@@ -41,8 +41,7 @@ struct ExplorationInput {
   std::vector<Eigen::Vector2d> lost_map_m = {};
   /// Whether frontiers with too few walls around to know the position there are explored as well.
   bool leave_building = false;
-  std::optional<Eigen::Vector2d> home_map_m =
-      std::nullopt;  ///< Where the flight ends; nullopt: where it explored last.
+  std::optional<Eigen::Vector2d> home_map_m = std::nullopt;  ///< Where the flight ends; nullopt: not known.
 };
 
 struct ExplorationResult {
