@@ -48,7 +48,7 @@ class FlatBuilding {
 };
 
 /// Where in a building to begin: of the largest region that a hull can fly in, the place nearest to `near_m`, or to the
-/// middle of the plan if that is outside of it. nullopt if the hull fits nowhere.
+/// middle of the map if that is outside of it. nullopt if the hull fits nowhere.
 std::optional<Eigen::Vector2d> startIn(const planning::CostMap& building_map, const Eigen::Vector2d& near_m);
 
 template <typename Visit>
