@@ -62,8 +62,8 @@ std::optional<Eigen::Vector2d> startIn(const planning::CostMap& map, const Eigen
     if (region.size() > largest.size()) largest = std::move(region);
   }
   if (largest.empty()) return std::nullopt;
-  const CellRect known = knownExtent(map.states().grid());
-  const Eigen::Vector2d low_m = map.centerOf(known.begin), high_m = map.centerOf(known.end);
+  const CellRect plan = knownExtent(map.states().grid());
+  const Eigen::Vector2d low_m = map.centerOf(plan.begin), high_m = map.centerOf(plan.end);
   const bool inside = (near_m.array() > low_m.array()).all() && (near_m.array() < high_m.array()).all();
   const Eigen::Vector2d middle_m = inside ? near_m : Eigen::Vector2d(0.5 * (low_m + high_m));
   const auto farness = [&](int index) { return (map.centerOf(map.cellOf(index)) - middle_m).squaredNorm(); };
