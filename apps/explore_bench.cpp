@@ -16,6 +16,7 @@
 #include "evaluation/exploration/flat_building.hpp"
 #include "evaluation/exploration/known_tour.hpp"
 #include "flight/system.hpp"
+#include "flight/wall_clock.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -71,6 +72,7 @@ evaluation::FlatFlightConfig flightConfigOf(const ExploreBenchOptions& options) 
   config.yaw_rate_rad_s = path.yaw_rate_deg_s * common::kRadPerDeg;
   config.laser_range_m = options.range_m.value_or(system.laser.range_max_m);
   config.laser_field_of_view_deg = system.laser.field_of_view_deg;
+  config.clock_s = [begin = flight::Clock::now()] { return flight::secondsSince(begin); };
   config.explorer.laser_range_m = std::min(config.explorer.laser_range_m, config.laser_range_m);
   return config;
 }

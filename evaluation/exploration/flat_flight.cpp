@@ -1,7 +1,6 @@
 #include "evaluation/exploration/flat_flight.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -231,7 +230,7 @@ class Exploration {
   void decide() {
     updateMap();
     asked_s_ = time_s_;
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin_s = clock_s();
     planning::ExplorationInput input;
     input.cost_map = std::make_shared<const CostMap>(map_);
     input.pose_map = mover_.pose();
@@ -248,8 +247,7 @@ class Exploration {
       return;
     }
     auto path = planner_->plan(map_, mover_.pose().position_m(), result.next->pose_map.position_m());
-    flight_.longest_call_s = std::max(flight_.longest_call_s,
-                                      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    flight_.longest_call_s = std::max(flight_.longest_call_s, clock_s() - begin_s);
     if (!path) {
       flight_.failure = "no path to a viewpoint: " + path.error().text;
       return;
@@ -262,6 +260,8 @@ class Exploration {
     escape_points_ = path->escape_points;
     mover_.follow(std::move(path->points_map_m), current_->pose_map.yaw_rad);
   }
+
+  double clock_s() const { return config_.clock_s ? config_.clock_s() : 0.0; }
 
   double unseenShare() const {
     CostMap truth(config_.cost_map, building_.resolution_m());

@@ -4,6 +4,7 @@
 // minutes; what an estimate, wind and control add is left to flights.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "evaluation/exploration/flat_building.hpp"
@@ -24,7 +25,8 @@ struct FlatFlightConfig {
   double yaw_rate_rad_s = 1.0;
   double laser_range_m = 30.0;
   double laser_field_of_view_deg = 270.0;
-  double limit_s = 3600.0;  ///< Of the exploration.
+  double limit_s = 3600.0;          ///< Of the exploration.
+  std::function<double()> clock_s;  ///< Of the wall, to measure calls; empty: they are not measured.
 };
 
 struct FlatFlight {
@@ -37,7 +39,7 @@ struct FlatFlight {
   double unseen_share = 0.0;    ///< Of the places that the hull can reach with a cell to spare.
   int calls = 0;                ///< Of the explorer.
   int viewpoints = 0;           ///< That were flown to.
-  double longest_call_s = 0.0;  ///< Of explorer and planner, on the wall clock.
+  double longest_call_s = 0.0;  ///< Of explorer and planner, by FlatFlightConfig::clock_s.
 };
 
 /// Flies from the start until the explorer says that it is done, and home. The same arguments give the same flight but
