@@ -7,6 +7,7 @@
 #include "evaluation/behavior_recorder.hpp"
 #include "evaluation/criteria.hpp"
 #include "evaluation/explored_check.hpp"
+#include "evaluation/flight_score.hpp"
 #include "evaluation/true_world.hpp"
 #include "small_world.hpp"
 #include "tests/support/layers.hpp"
