@@ -116,8 +116,17 @@ int exploreBench(const ExploreBenchOptions& options) {
   (void)askedStart(options.start);
   std::vector<BenchResult> results;
   bool complete = true;
-  for (const std::string& file : benchFiles(options.worlds.places)) {
-    results.push_back(compareIn(file, options, config));
+  const std::vector<std::string> files = benchFiles(options.worlds.places);
+  for (const std::string& file : files) {
+    try {
+      results.push_back(compareIn(file, options, config));
+    } catch (const InputError& refused) {
+      // One of many does not keep the others from being compared.
+      if (files.size() == 1) throw;
+      showError(std::string(refused.what()) + "\n");
+      complete = false;
+      continue;
+    }
     for (const BenchFlight& entry : results.back().flights) complete = complete && entry.flight.complete;
   }
   if (options.json)
