@@ -27,5 +27,6 @@ void addTune(Command& program);
 void addConsistency(Command& program);
 void addWorld(Command& program);
 void addPlan(Command& program);
+void addExploreBench(Command& program);
 
 }  // namespace swiftlet::apps

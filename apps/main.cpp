@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   apps::addConsistency(top);
   apps::addWorld(top);
   apps::addPlan(top);
+  apps::addExploreBench(top);
 
   try {
     const auto [run, exit_code] = program.parse(argc, argv);

@@ -77,6 +77,7 @@ std::string flightLine(const TrialConfig& trial, const FlightScore& score) {
   if (!score.passed() && score.failures.empty()) line += "\n    " + score.collisionText();
   if (!score.coverage_problem.empty() && !trial.criteria.asksFor("coverage"))
     line += "\n    no coverage: " + score.coverage_problem;
+  for (const std::string& certificate : score.certificates) line += "\n    " + certificate;
   return line;
 }
 

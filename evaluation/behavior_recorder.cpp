@@ -89,6 +89,7 @@ void BehaviorRecorder::world(const common::World& world) {
   record_.targets = world.targets;
   record_.objects = world.objects;
   present_.map = world.map->grid;
+  present_.map3d = world.map3d;
   present_.keep_out = world.map->keep_out;
   if (zones_ == world.map->keep_out) return;
   zones_ = world.map->keep_out;

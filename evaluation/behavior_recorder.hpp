@@ -17,8 +17,9 @@
 #include "simulation/truth.hpp"
 
 namespace swiftlet::common {
+struct Map3dLayer;
 struct World;
-}
+}  // namespace swiftlet::common
 
 namespace swiftlet::evaluation {
 
@@ -47,6 +48,7 @@ struct BehaviorRecord {
   struct Explored {
     common::ExploreIntent asked;
     std::shared_ptr<const common::OccupancyGrid> map;  ///< Null before the first snapshot.
+    std::shared_ptr<const common::Map3dLayer> map3d;   ///< Null without one.
     std::shared_ptr<const std::vector<common::Polygon>> keep_out;
     double height_world_m = 0.0;
     std::vector<simulation::Actor> closed_doors;

@@ -6,10 +6,9 @@
 #include <set>
 
 #include "common/rgbd_frame.hpp"
+#include "evaluation/explored_check.hpp"
 #include "evaluation/figure_measures.hpp"
-#include "evaluation/map_metrics.hpp"
 #include "evaluation/true_world.hpp"
-#include "simulation/truth_map.hpp"
 
 namespace swiftlet::evaluation {
 namespace {
@@ -112,16 +111,6 @@ bool sees(const common::PinholeCamera& camera, const common::RgbdCameraConfig& s
              .distance_m > to_place_world_m.norm() - kMet_m;
 }
 
-/// The cells that are 1 and of whose centre `holds` is true.
-template <typename Holds>
-common::TiledGrid<std::uint8_t> where(const common::TiledGrid<std::uint8_t>& cells, Holds&& holds) {
-  common::TiledGrid<std::uint8_t> kept(cells.resolution_m());
-  cells.forEachCell([&](common::CellIndex cell, std::uint8_t value) {
-    if (value != 0 && holds(cells.centerOf(cell))) kept.set(cell, value);
-  });
-  return kept;
-}
-
 }  // namespace
 
 std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorld& world,
@@ -140,29 +129,6 @@ std::optional<double> surveyCoverage(const common::Polygon& area, const TrueWorl
     });
   }
   return 1.0 - static_cast<double>(unseen.size()) / whole;
-}
-
-/// By a flood of the true world at the height of flight, of which the autonomy knows nothing. Nobody stands in its way,
-/// as whoever does may go. It does not know keep-out zones.
-std::optional<double> unseenShare(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                  const common::Pose3& T_world_map) {
-  if (!explored.keep_out->empty()) return std::nullopt;
-  const double half_height_m = 0.5 * world.vehicle.hull_height_m, cell_m = explored.map->resolution_m();
-  simulation::FreeSpaceQuery query;
-  query.start_world_m = T_world_map.position_m.head<2>();
-  // Where the hull fits by less than a cell, a map of cells cannot tell that it does.
-  query.hull_radius_m = world.vehicle.hullRadius_m() + explored.asked.clearance_m + cell_m;
-  query.bottom_m = explored.height_world_m - half_height_m;
-  query.top_m = explored.height_world_m + half_height_m;
-  query.resolution_m = cell_m;
-  query.max_area_m2 = world.reachable_area_max_m2;
-  query.closed_doors = explored.closed_doors;
-  simulation::FreeSpace space = simulation::freeSpace(*world.rays, query);
-  if (space.isOpen(query) || !(space.covered_area_m2 > 0.0)) return std::nullopt;
-  const common::Pose2 T_world_map_planar = common::planar(T_world_map), T_map_world = T_world_map_planar.inverse();
-  if (const auto& bounds = explored.asked.bounds)
-    space.covered = where(space.covered, [&](const Eigen::Vector2d& p) { return bounds->contains(T_map_world * p); });
-  return 1.0 - coverage(*explored.map, T_world_map_planar, space);
 }
 
 namespace {
@@ -198,9 +164,13 @@ void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, Flight
   for (const common::Polygon& area : record.surveyed)
     if (const auto share = surveyCoverage(area, world, flight.T_world_map, flight.T_world_body_views))
       keepLeast(score["survey_coverage"], *share);
-  for (const BehaviorRecord::Explored& explored : record.explored)
-    if (const auto share = unseenShare(explored, world, flight.T_world_map))
-      keepGreatest(score["explored_unseen_share"], *share);
+  for (const BehaviorRecord::Explored& explored : record.explored) {
+    const auto area = checkExploredArea(explored, world, flight.T_world_map);
+    const auto volume = checkExploredVolume(explored, world, flight.T_world_map);
+    if (area) keepGreatest(score["explored_unseen_share"], area->unseen_share);
+    if (volume) keepGreatest(score["explored_unseen_volume_share"], volume->unseen_share);
+    score.certificates.push_back(certificateOf(area, volume));
+  }
   measureFollow(record.follows, score);
   if (record.targets) measureTargets(reportedBy(record), world.targets, flight.T_world_map, score);
   measureLanding(flight, world.targets, score);

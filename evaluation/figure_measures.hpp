@@ -17,11 +17,6 @@ void measureMap3d(const FlightRecord& record, const TrueWorld& world, FlightScor
 /// What behaviours promise, by the truth.
 void measureBehaviors(const FlightRecord& record, const TrueWorld& world, FlightScore& score);
 
-/// The share of the area that the hull could reach, by the truth, which the map did not have when an exploration ended.
-/// nullopt if the world is open, if there were keep-out zones, or if the hull hardly fits where it took off.
-std::optional<double> unseenShare(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                  const common::Pose3& T_world_map);
-
 /// By the targets that are found, not by candidates. The nearest pairs of reported and true ones belong together.
 /// Nothing is measured without a true target, and no error without a found one.
 void measureTargets(const std::vector<common::Target>& reported, const std::vector<TrueTarget>& truth,

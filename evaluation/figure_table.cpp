@@ -287,6 +287,7 @@ Figures behaviorRows() {
                  "`Explore` ended as a success; 1: no bound.",
                  kOfMeasured, Bounds{0, 1}),
           greatest("explored_unseen_share_max")),
+      row("explored_unseen_volume_share", greatest("explored_unseen_volume_share_max")),
       row("follow_share",
           atLeast("follow_share_min", "share of the time at the distance of following",
                   "Least share of the time of following, in each flight mode, with the person 1.5 to 3 m away.",

@@ -26,10 +26,12 @@ struct FlightScore {
   std::string verdict_reason;  ///< Reason by the truth, with figures.
 
   int collisions = 0;
-  int avoidable_collisions = 0;     ///< Collisions that were not forced.
-  int glass_contacts = 0;           ///< Collisions with glass that had never returned a beam.
-  std::string collision;            ///< What was touched; empty if nothing was.
-  std::string coverage_problem;     ///< Why there is no coverage: the world is not closed.
+  int avoidable_collisions = 0;  ///< Collisions that were not forced.
+  int glass_contacts = 0;        ///< Collisions with glass that had never returned a beam.
+  std::string collision;         ///< What was touched; empty if nothing was.
+  std::string coverage_problem;  ///< Why there is no coverage: the world is not closed.
+  /// Of each exploration that ended as a success: whether all that is reachable was seen, or what is left.
+  std::vector<std::string> certificates;
   std::vector<MarkerVisit> visits;  ///< Every goal that was reached.
   int interruptions = 0;
   int resumed = 0;

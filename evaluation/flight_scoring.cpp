@@ -10,6 +10,7 @@
 #include "evaluation/figure_measures.hpp"
 #include "evaluation/map_metrics.hpp"
 #include "evaluation/statistics.hpp"
+#include "evaluation/verdict_facts.hpp"
 #include "simulation/nature.hpp"
 #include "simulation/truth_map.hpp"
 

@@ -119,6 +119,7 @@ ordered_json flightJson(const FlightScore& flight) {
   add({kSpeed, kConduct, kHomeEnergy, kLatency}, flight, json);
   for (const FlightFigure* figure : figuresOf({kBehaviors}))
     if (flight.figure(figure->name)) json[figure->name] = valueJson(*figure, flight);
+  if (!flight.certificates.empty()) json["explored"] = flight.certificates;
   addParts(flight, json);
   return json;
 }

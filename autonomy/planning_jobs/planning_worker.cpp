@@ -135,6 +135,7 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   input.bounds = question.bounds;
   input.lost_map_m = question.lost_map_m;
   input.leave_building = question.leave_building;
+  input.home_map_m = Eigen::Vector2d::Zero();  // As pathHome_m(): where it took off.
   // A viewpoint whose path leads through the open is left for another one.
   constexpr int kTries = 3;
   planning::ExplorationResult result;

@@ -6,10 +6,20 @@
 namespace swiftlet::planning {
 
 void ExplorerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"utility", "nearest_frontier"}, "How the next viewpoint is chosen.");
+  fields.choice("kind", kind, {"utility", "nearest_frontier", "tour"}, "How the next viewpoint is chosen.");
 }
 
-const char* toString(ExplorerKind kind) { return kind == ExplorerKind::kUtility ? "utility" : "nearest frontier"; }
+const char* toString(ExplorerKind kind) {
+  switch (kind) {
+    case ExplorerKind::kUtility:
+      return "utility";
+    case ExplorerKind::kNearestFrontier:
+      return "nearest frontier";
+    case ExplorerKind::kTour:
+      return "tour";
+  }
+  return "unknown";
+}
 
 ExplorationResult explore(const ExplorationInput& input, const ExplorerConfig& config) {
   switch (config.kind) {
@@ -17,6 +27,8 @@ ExplorationResult explore(const ExplorationInput& input, const ExplorerConfig& c
       return exploreByUtility(input, config);
     case ExplorerKind::kNearestFrontier:
       return exploreNearestFrontier(input, config);
+    case ExplorerKind::kTour:
+      return exploreByTour(input, config);
   }
   SWIFTLET_CHECK(false, static_cast<int>(config.kind));
   return {};

@@ -41,6 +41,7 @@ struct ExplorationInput {
   std::vector<Eigen::Vector2d> lost_map_m = {};
   /// Whether frontiers with too few walls around to know the position there are explored as well.
   bool leave_building = false;
+  std::optional<Eigen::Vector2d> home_map_m = std::nullopt;  ///< Where the flight ends; nullopt: not known.
 };
 
 struct ExplorationResult {
@@ -53,7 +54,7 @@ struct ExplorationResult {
   std::string reason;
 };
 
-enum class ExplorerKind { kUtility, kNearestFrontier };
+enum class ExplorerKind { kUtility, kNearestFrontier, kTour };
 
 /// For people, such as "nearest frontier".
 const char* toString(ExplorerKind kind);
@@ -78,6 +79,13 @@ struct ExplorerConfig {
 /// a frontier, or as near to it as the hull fits, that is cheapest to reach. It faces the unknown, and is kept until it
 /// is reached or its frontier is gone. Neither the gain there counts, nor whether the laser fixes the pose.
 [[nodiscard]] ExplorationResult exploreNearestFrontier(const ExplorationInput& input, const ExplorerConfig& config);
+
+/// A tour through places that together see all frontiers (Zhou 2021, "FUEL: fast UAV exploration using incremental
+/// frontier structure and hierarchical planning", RA-L 6(2), sections IV and V; Zhang 2024, "FALCON: fast autonomous
+/// aerial exploration using coverage path guidance", T-RO): the order of least travel time over the costs of the map,
+/// on to home at its end. What lies near the way is taken along instead of being returned for. The first viewpoint is
+/// kept while something is left to be seen from it and no other tour saves a stated share.
+[[nodiscard]] ExplorationResult exploreByTour(const ExplorationInput& input, const ExplorerConfig& config);
 
 /// The attempt to record once the viewpoint was reached and what is seen from it is in the map.
 inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {

@@ -24,8 +24,12 @@ TEST_P(Help, DescribesTheCommandWithAnExample) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("fly", "check", "trial", "config", "doctor", "version", "optimize", "map",
-                                         "map3d", "localize", "evaluate", "nodes", "migrate"),
-                         [](const auto& command) { return command.param; });
+                                         "map3d", "localize", "evaluate", "nodes", "migrate", "explore-bench"),
+                         [](const auto& command) {
+                           std::string name = command.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
 
 TEST(Usage, GeneralHelpNamesEachCommand) {
   const ProgramEnd end = runSwiftlet({"--help"});

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/voxel_map.hpp"
+#include "common/world/map3d_layer.hpp"
 #include "evaluation/behavior_recorder.hpp"
 #include "evaluation/criteria.hpp"
-#include "evaluation/figure_measures.hpp"
+#include "evaluation/explored_check.hpp"
+#include "evaluation/flight_score.hpp"
 #include "evaluation/true_world.hpp"
 #include "small_world.hpp"
 #include "tests/support/layers.hpp"
@@ -30,7 +33,11 @@ class ExploredStory : public testing::Test {
     });
     explored_.map = std::make_shared<const common::OccupancyGrid>(map);
   }
-  std::optional<double> unseen() const { return unseenShare(explored_, world_, T_world_map_); }
+  std::optional<ExploredCheck> check() const { return checkExploredArea(explored_, world_, T_world_map_); }
+  std::optional<double> unseen() const {
+    const auto checked = check();
+    return checked ? std::optional(checked->unseen_share) : std::nullopt;
+  }
 
   simulation::RayCaster rays_;
   TrueWorld world_;
@@ -42,6 +49,47 @@ TEST_F(ExploredStory, ARoomThatWasLeftOutIsUnseen) {
   EXPECT_EQ(unseen(), 0.0);
   know(2.0);
   EXPECT_NEAR(unseen().value(), 0.5, 0.03);
+}
+
+TEST_F(ExploredStory, TheCertificateNamesWhatIsLeft) {
+  EXPECT_THAT(certificateOf(check(), std::nullopt),
+              testing::MatchesRegex("explored: all of [0-9.]+ m2 reachable was seen"));
+  know(2.0);
+  const auto left = check()->left;
+  ASSERT_EQ(left.size(), 1u);
+  EXPECT_NEAR(left[0].center_map_m.x(), 2.0, 0.2) << "the right room, 2 m from the start";
+  EXPECT_NEAR(left[0].amount, 0.5 * check()->amount, 0.2);
+  EXPECT_NEAR(left[0].height_m, 1.0, 1e-9);
+  EXPECT_THAT(certificateOf(check(), std::nullopt),
+              testing::MatchesRegex("explored: [0-9.]+ % of [0-9.]+ m2 reachable was not seen: [0-9.]+ m2 at .*"));
+  explored_.keep_out =
+      std::make_shared<const std::vector<common::Polygon>>(1, common::Polygon{{{0, 0}, {1, 0}, {1, 1}}});
+  EXPECT_THAT(certificateOf(check(), std::nullopt), testing::HasSubstr("not judged"));
+}
+
+/// The camera could see both rooms from the left one and the right one; the 3D map has the left one only.
+TEST_F(ExploredStory, OfTheVolumeWhatThe3dMapDoesNotHaveIsLeft) {
+  world_.rgbd_camera.emplace();
+  EXPECT_FALSE(checkExploredVolume(explored_, world_, T_world_map_)) << "no 3D map";
+  const auto knownUpTo = [&](double x_world_m) {
+    common::VoxelMap map(0.1);
+    for (int z = 0; z < 40; ++z)
+      for (int y = -60; y < 80; ++y)
+        for (int x = -60; x < static_cast<int>((x_world_m - 1.0) / 0.1); ++x) map.set({x, y, z}, -40);
+    auto layer = std::make_shared<common::Map3dLayer>();
+    layer->fused = std::make_shared<const common::VoxelMap>(std::move(map));
+    explored_.map3d = layer;
+    return checkExploredVolume(explored_, world_, T_world_map_);
+  };
+  const auto whole = knownUpTo(9.0);
+  ASSERT_TRUE(whole);
+  EXPECT_GT(whole->amount, 5.0);
+  EXPECT_EQ(whole->unseen_share, 0.0);
+  const auto half = knownUpTo(2.0);
+  EXPECT_NEAR(half->unseen_share, 0.5, 0.15);
+  ASSERT_FALSE(half->left.empty());
+  EXPECT_GT(half->left[0].center_map_m.x(), 1.0);
+  EXPECT_THAT(certificateOf(check(), half), testing::HasSubstr("m3 that the camera could see was not seen"));
 }
 
 TEST_F(ExploredStory, WhatIsOutOfBoundsIsNotAskedFor) {

@@ -66,11 +66,12 @@ TEST(Exploration, RandomBuildingsAreExplored) {
   }
 }
 
-TEST(Exploration, TheNearestFrontierExplorerExploresBuildingsToo) {
+TEST(Exploration, TheNearestFrontierAndTheTourExploreBuildingsToo) {
   test::FlightConfig config = quick();
-  config.explorer.kind = ExplorerKind::kNearestFrontier;
-  for (const bool pockets : {true, false}) {
-    const std::string name = pockets ? "nearest_pocket" : "nearest_building";
+  for (const int i : {0, 1, 2, 3}) {
+    const bool pockets = i % 2 == 0;
+    config.explorer.kind = i < 2 ? ExplorerKind::kNearestFrontier : ExplorerKind::kTour;
+    const std::string name = fmt::format("{}_{}", i < 2 ? "nearest" : "tour", pockets ? "pocket" : "building");
     const auto world = pockets ? test::pocketRoom(1) : test::randomBuilding(1, 14, 10, 3, 2, 8);
     const test::FlightReport report = test::fly(world, config, 1);
     record(report, name);
@@ -105,6 +106,53 @@ TEST(NearestFrontier, IsChosenWhateverItsSizeAndKeptUntilReached) {
   EXPECT_FALSE(last.kept_current);
   ASSERT_TRUE(last.next);
   EXPECT_GT(last.next->target_map_m.x(), 9.0);
+}
+
+/// A hall with a nook of half a metre above its left end, and an unknown room behind its right end.
+struct TourOfTwo : testing::Test {
+  TourOfTwo() {
+    common::OccupancyGrid grid = test::room(200, 100);
+    test::fill(grid, {{30, 100}, {50, 101}}, test::kFreeCell);
+    test::fill(grid, {{25, 102}, {55, 103}}, test::kWallCell);
+    test::fill(grid, {{200, 30}, {201, 70}}, test::kFreeCell);
+    auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
+    map->update(grid.snapshot(), {});
+    input.cost_map = map;
+  }
+  double firstX(double x_m, std::optional<double> home_x_m) {
+    input.pose_map = {x_m, 2.5, 0.0};
+    input.home_map_m = home_x_m ? std::optional(Eigen::Vector2d(*home_x_m, 2.5)) : std::nullopt;
+    const ExplorationResult result = exploreByTour(input, near_sighted);
+    EXPECT_TRUE(result.next) << result.reason;
+    return result.next ? result.next->target_map_m.x() : -1.0;
+  }
+  ExplorationInput input;
+  ExplorerConfig near_sighted{.laser_range_m = 3.0};  ///< So that neither is seen from far away.
+};
+
+TEST_F(TourOfTwo, TakesWhatIsNearAlongInsteadOfComingBackForIt) {
+  EXPECT_LT(firstX(2.0, std::nullopt), 3.0) << "though the room promises more";
+  EXPECT_GT(firstX(8.0, std::nullopt), 9.0);
+}
+
+TEST_F(TourOfTwo, EndsNearHome) {
+  EXPECT_GT(firstX(5.5, 1.0), 9.0);
+  EXPECT_LT(firstX(5.5, 9.0), 3.0);
+}
+
+TEST_F(TourOfTwo, KeepsItsViewpointUnlessAnotherOrderIsMuchBetter) {
+  input.pose_map = {5.5, 2.5, 0.0};
+  input.home_map_m = Eigen::Vector2d(1.0, 2.5);
+  input.current = exploreByTour(input, near_sighted).next;
+  ASSERT_TRUE(input.current);
+  EXPECT_TRUE(exploreByTour(input, near_sighted).kept_current);
+  // Home is elsewhere: the order to there is worth turning round.
+  input.home_map_m = Eigen::Vector2d(9.0, 2.5);
+  EXPECT_FALSE(exploreByTour(input, near_sighted).kept_current);
+  // Most of what it promised was seen on the way.
+  input.home_map_m = Eigen::Vector2d(1.0, 2.5);
+  input.current->gain_m2 *= 10.0;
+  EXPECT_FALSE(exploreByTour(input, near_sighted).kept_current);
 }
 
 TEST(Exploration, EndsBesideAWallThatReturnsNoBeams) {
@@ -277,7 +325,7 @@ TEST(Exploration, ReportsAVehicleThatIsShutIn) {
   common::OccupancyGrid grid = test::room(40, 4);
   auto map = std::make_shared<CostMap>(CostMap::Config{}, 0.05);
   map->update(grid.snapshot(), {});
-  for (const ExplorerKind kind : {ExplorerKind::kUtility, ExplorerKind::kNearestFrontier}) {
+  for (const ExplorerKind kind : {ExplorerKind::kUtility, ExplorerKind::kNearestFrontier, ExplorerKind::kTour}) {
     const auto result = explore({map, {1.0, 0.1, 0.0}, std::nullopt, {}, std::nullopt}, {.kind = kind});
     EXPECT_FALSE(result.next);
     EXPECT_THAT(result.reason, HasSubstr("shut in"));
