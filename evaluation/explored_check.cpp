@@ -128,7 +128,7 @@ void lookAllAround(const common::Pose3& T_map_body_level, const TrueWorld& world
                    VoxelMap& voxels) {
   constexpr int kTurns = 90, kRows = 16;  // A ray every 4 degrees, 0.35 m at 5 m; and every 3 of a usual picture.
   const common::PinholeCamera pinhole = world.rgbd_camera->camera();
-  const common::Pose3 T_world_body = T_world_map * T_map_body_level;
+  const common::Pose3 T_world_body = T_world_map * T_map_body_level, T_map_world = T_world_map.inverse();
   for (int turn = 0; turn < kTurns; ++turn) {
     const Eigen::Quaterniond yaw(Eigen::AngleAxisd(2.0 * std::numbers::pi * turn / kTurns, Eigen::Vector3d::UnitZ()));
     const common::Pose3 T_world_camera =
@@ -142,8 +142,7 @@ void lookAllAround(const common::Pose3& T_map_body_level, const TrueWorld& world
       // What is in front of a surface, by a voxel of the map.
       const double free_m = (hit ? hit.distance_m : range_m) - 0.5 * voxels.resolution_m();
       for (double at_m = world.rgbd_camera->range_min_m; at_m < free_m; at_m += 0.5 * voxels.resolution_m())
-        voxels.set(voxels.voxelAt(T_world_map.inverse() * (T_world_camera.position_m + at_m * direction)),
-                   kCouldBeSeen);
+        voxels.set(voxels.voxelAt(T_map_world * (T_world_camera.position_m + at_m * direction)), kCouldBeSeen);
     }
   }
 }
