@@ -278,7 +278,9 @@ std::optional<Eigen::Vector2d> PlanningWorker::gapBefore(const planning::CostFie
       from[static_cast<std::size_t>(i)] = i;
       open.push_back(i);
     }
-  int behind = 0, farthest = -1;
+  // Below a table or in a corner of the room all is seen: only what borders on the unknown may be more than it shows.
+  constexpr double kUnseen_m = 0.3;
+  int behind = 0, unseen = 0, farthest = -1;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const int at = open[k];
     const int step = steps[static_cast<std::size_t>(at)];
@@ -288,13 +290,15 @@ std::optional<Eigen::Vector2d> PlanningWorker::gapBefore(const planning::CostFie
     }
     for (const int next : {at - 1, at + 1, at - width, at + width}) {
       if (next < 0 || next >= count || from[static_cast<std::size_t>(next)] >= 0) continue;
+      if (step * map_.resolution_m() > kBehind_m && map_.states()[next] == planning::CellState::kUnknown) ++unseen;
       if (map_.states()[next] != planning::CellState::kFree || map_.isKeptOut(next)) continue;
       from[static_cast<std::size_t>(next)] = at;
       steps[static_cast<std::size_t>(next)] = step + 1;
       open.push_back(next);
     }
   }
-  if (behind * map_.resolution_m() * map_.resolution_m() < kArea_m2) return std::nullopt;
+  if (behind * map_.resolution_m() * map_.resolution_m() < kArea_m2 || unseen * map_.resolution_m() < kUnseen_m)
+    return std::nullopt;
   int gap = farthest;
   while (steps[static_cast<std::size_t>(gap)] > 0) gap = from[static_cast<std::size_t>(gap)];
   return map_.centerOf(map_.cellOf(gap));

@@ -19,7 +19,7 @@ TopologicalMap read(const std::string& yaml) {
   return map;
 }
 
-std::vector<std::string> problemsOf(const std::string& yaml) {
+std::vector<std::string> namesOfProblems(const std::string& yaml) {
   std::vector<std::string> names;
   try {
     (void)read(yaml);
@@ -63,13 +63,13 @@ TEST(TopologicalMap, IsWrittenByHandToo) {
 }
 
 TEST(TopologicalMap, SaysWhatIsWrong) {
-  EXPECT_THAT(problemsOf("places:\n  - {name: the kitchen, x_m: 1}\n"), Contains("places.name"));
-  EXPECT_THAT(problemsOf("places:\n  - {x_m: 1}\n"), Contains("places.name"));
-  EXPECT_THAT(problemsOf("places:\n  - {name: a}\npassages:\n  - {name: a}\n"), Contains("config.name-twice"));
-  EXPECT_THAT(problemsOf("danger_zones:\n  - {name: a, corners_m: [0, 0, 1]}\n"), Contains("places.odd-corners"));
-  EXPECT_THAT(problemsOf("danger_zones:\n  - {name: a, corners_m: [0, 0, 1, 1]}\n"), Contains("places.polygon"));
-  EXPECT_FALSE(problemsOf("places:\n  - {name: a, x_m: .nan}\n").empty());
-  EXPECT_FALSE(problemsOf("place:\n  - {name: a}\n").empty());
+  EXPECT_THAT(namesOfProblems("places:\n  - {name: the kitchen, x_m: 1}\n"), Contains("places.name"));
+  EXPECT_THAT(namesOfProblems("places:\n  - {x_m: 1}\n"), Contains("places.name"));
+  EXPECT_THAT(namesOfProblems("places:\n  - {name: a}\npassages:\n  - {name: a}\n"), Contains("config.name-twice"));
+  EXPECT_THAT(namesOfProblems("danger_zones:\n  - {name: a, corners_m: [0, 0, 1]}\n"), Contains("places.odd-corners"));
+  EXPECT_THAT(namesOfProblems("danger_zones:\n  - {name: a, corners_m: [0, 0, 1, 1]}\n"), Contains("places.polygon"));
+  EXPECT_FALSE(namesOfProblems("places:\n  - {name: a, x_m: .nan}\n").empty());
+  EXPECT_FALSE(namesOfProblems("place:\n  - {name: a}\n").empty());
   EXPECT_THROW((void)readTopologicalMap("no/such/places.yaml"), InputError);
 }
 
