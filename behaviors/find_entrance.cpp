@@ -243,9 +243,9 @@ Status FindEntrance::enterBy(tree::TickContext& context, const RecognizedObject&
   if (!places) return fail(context, places.error());
   const Eigen::Vector2d inside_map_m = *placeInside(tick, door, depth_m, clearance_m);
   const common::PlaceNames names = tick.flight.world->map->names();
-  tick.say(common::Severity::kInfo,
-           fmt::format("an entrance of {:.2f} m at {}", door.size_m.x(), names.of(middleOf(door))),
-           "the place inside is " + names.of(inside_map_m));
+  tick.say(common::Severity::kInfo, "an entrance",
+           fmt::format("{:.2f} m wide at {}, the place inside is {}", door.size_m.x(), names.of(middleOf(door)),
+                       names.of(inside_map_m)));
   const auto pointOf = [&](const Eigen::Vector2d& place_map_m) {
     const Eigen::Vector2d named_m = places->T_map_named().inverse() * place_map_m;
     return tree::Point{named_m.x(), named_m.y(), std::nullopt};

@@ -141,7 +141,7 @@ TEST(FindEntrance, ExploresUntilADoorIsOpenAndChoosesAPlaceInside) {
   EXPECT_EQ(flight.stops().tick(), "RUNNING 3 go to (0.00, 0.50)");
   EXPECT_EQ(flight.succeeds().tick(), "RUNNING 4 go to (2.00, 0.50)");
   EXPECT_THAT(flight.events(),
-              ::testing::Contains("an entrance of 1.00 m at (0.00, 0.50) (the place inside is (2.00, 0.50))"));
+              ::testing::Contains("an entrance (1.00 m wide at (0.00, 0.50), the place inside is (2.00, 0.50))"));
 }
 
 TEST(FindEntrance, GoesLessDeepWhereAWallStands) {
