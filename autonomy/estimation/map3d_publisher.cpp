@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/config_fields.hpp"
 #include "mapping3d/model/submap_fusion.hpp"
 
 namespace swiftlet::autonomy {
@@ -17,6 +16,8 @@ constexpr const char* kFusion3d = "mapping3d fusion";
 constexpr double kPublishPeriod_s = 0.4;
 /// Time between fusions of all submaps to one map; after a loop closure they are fused at once.
 constexpr double kFusionPeriod_s = 10.0;
+/// Declared time for fusing them.
+constexpr double kFusionLatency_s = 2.0;
 /// About the reach of a submap: a turn moves points at that distance.
 constexpr double kSubmapReach_m = 5.0;
 /// A sensor whose work has not copied the submaps for this many periods has stopped.
@@ -24,12 +25,8 @@ constexpr double kLatePeriods = 2.0;
 
 }  // namespace
 
-void Map3dPublisherConfig::describe(common::config::Fields& fields) {
-  fields("fusion_latency_s", fusion_latency_s, {0.01, 60}, "Declared time for fusing all submaps.");
-}
-
-Map3dPublisher::Map3dPublisher(const Map3dPublisherConfig& config, double resolution_m, common::JobRunner& jobs)
-    : config_(config), resolution_m_(resolution_m), jobs_(jobs) {}
+Map3dPublisher::Map3dPublisher(double resolution_m, common::JobRunner& jobs)
+    : resolution_m_(resolution_m), jobs_(jobs) {}
 
 bool Map3dPublisher::begin(Time now) {
   const bool publish = !submaps_stamp_ || (now - *submaps_stamp_).seconds() >= kPublishPeriod_s;
@@ -87,7 +84,7 @@ void Map3dPublisher::fuse(const std::shared_ptr<const common::KeyPoses>& keys, T
   fused_from_ = now;
   fused_keys_ = keys;
   jobs_.submit(
-      kFusion3d, now, Duration::fromSeconds(config_.fusion_latency_s),
+      kFusion3d, now, Duration::fromSeconds(kFusionLatency_s),
       [this, submaps = layer_->submaps, keys, now, resolution_m = resolution_m_]() -> common::JobRunner::Deliver {
         auto fused = std::make_shared<const common::VoxelMap>(mapping3d::fuse(*submaps, *keys, resolution_m));
         return [this, fused, now](Time) {

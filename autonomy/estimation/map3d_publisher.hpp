@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "common/config_fwd.hpp"
 #include "common/jobs.hpp"
 #include "common/key_pose.hpp"
 #include "common/submap3d.hpp"
@@ -14,16 +13,10 @@
 
 namespace swiftlet::autonomy {
 
-struct Map3dPublisherConfig {
-  double fusion_latency_s = 2.0;
-
-  void describe(common::config::Fields& fields);
-};
-
 /// One thread. Its jobs refer to it, so it cannot be moved and must outlive them.
 class Map3dPublisher {
  public:
-  Map3dPublisher(const Map3dPublisherConfig& config, double resolution_m, common::JobRunner& jobs);
+  Map3dPublisher(double resolution_m, common::JobRunner& jobs);
   Map3dPublisher(const Map3dPublisher&) = delete;
   Map3dPublisher& operator=(const Map3dPublisher&) = delete;
 
@@ -48,7 +41,6 @@ class Map3dPublisher {
  private:
   bool hasMoved(const common::KeyPoses& keys) const;
 
-  Map3dPublisherConfig config_;
   double resolution_m_;
   common::JobRunner& jobs_;
   std::shared_ptr<common::Map3dLayer> layer_;  ///< The next one to be published.

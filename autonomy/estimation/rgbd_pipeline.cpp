@@ -21,7 +21,7 @@ RgbdPipeline::RgbdPipeline(const RgbdPipelineConfig& config, const common::RgbdC
       calibration_(config.calibration, camera.mount.pose(), log),
       jobs_(jobs),
       mapper_(std::make_shared<mapping3d::Mapper3d>(config.mapper)),
-      publisher_(config.publisher, config.mapper.voxels.resolution_m, jobs),
+      publisher_(config.mapper.voxels.resolution_m, jobs),
       lost_(kLost_s) {}
 
 bool RgbdPipeline::add(std::shared_ptr<const common::RgbdFrame> frame) {

@@ -14,7 +14,6 @@ struct RgbdPipelineConfig {
   mapping3d::RadioLinkConfig radio;
   mapping3d::CameraCalibrationConfig calibration;
   double latency_s = 0.06;
-  Map3dPublisherConfig publisher;  ///< Its keys are at this level of the file.
 
   void describe(common::config::Fields& fields);
 };

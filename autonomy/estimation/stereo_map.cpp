@@ -59,7 +59,7 @@ StereoMap::StereoMap(const RgbdPipelineConfig& config, const common::RgbdCameraC
       T_body_camera_(camera.mount.pose()),
       jobs_(jobs),
       submaps_(storeFor(config.mapper, noise)),
-      publisher_(config.publisher, config.mapper.voxels.resolution_m, jobs) {}
+      publisher_(config.mapper.voxels.resolution_m, jobs) {}
 
 std::optional<Time> StereoMap::next() const {
   if (!waiting_ || !jobs_.idle(kMapping3d)) return std::nullopt;

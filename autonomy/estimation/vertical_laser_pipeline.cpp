@@ -36,7 +36,6 @@ Time endOf(const common::LaserScan& sweep) {
 void VerticalLaserPipelineConfig::describe(common::config::Fields& fields) {
   fields.section("voxels", voxels, "Occupancy.");
   fields.section("submaps", submaps, "Pieces of the map, which move with the key scans of the 2D map.");
-  publisher.describe(fields);
   fields("body_radius_m", body_radius_m, {0, 2},
          "Returns nearer to the body's origin come from the vehicle itself and are left out.");
 }
@@ -49,7 +48,7 @@ VerticalLaserPipeline::VerticalLaserPipeline(const VerticalLaserPipelineConfig& 
       jobs_(jobs),
       silence_("upright laser", "sweep", kSweepsSilent_s, log),
       submaps_(std::make_shared<mapping3d::SubmapStore>(config.submaps, config.voxels)),
-      publisher_(config.publisher, config.voxels.resolution_m, jobs),
+      publisher_(config.voxels.resolution_m, jobs),
       log_(log) {}
 
 void VerticalLaserPipeline::add(std::shared_ptr<const common::VerticalScan> sweep) {

@@ -33,7 +33,6 @@ namespace swiftlet::autonomy {
 struct VerticalLaserPipelineConfig {
   mapping3d::VoxelConfig voxels{.range_max_m = 8.0};
   mapping3d::SubmapConfig submaps{.cube_m = 0.03, .point_range_m = 8.0, .reach_m = 4.0};
-  Map3dPublisherConfig publisher;  ///< Its keys are on the level of the pipeline's own.
   double body_radius_m = 0.3;
   double latency_s = 0.05;  ///< Declared time for drawing the sweeps that have come since the last job.
 

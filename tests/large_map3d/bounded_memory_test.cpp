@@ -30,7 +30,7 @@ class Tunnel {
   Tunnel(const mapping3d::SubmapConfig& submaps, int key_frames)
       : store_(submaps, voxels_, noise_),
         key_frames_(key_frames),
-        publisher_(publishing_, voxels_.resolution_m, *jobs_) {}
+        publisher_(voxels_.resolution_m, *jobs_) {}
 
   void fly(int steps) {
     for (int i = 0; i < steps; ++i) step();
@@ -86,7 +86,6 @@ class Tunnel {
 
   mapping3d::VoxelConfig voxels_;
   vision::DepthNoiseConfig noise_;
-  Map3dPublisherConfig publishing_;
   common::KeyPoses keys_;
   mapping3d::SubmapStore store_;
   mapping3d::KeyFrameMap key_frames_;
