@@ -40,11 +40,11 @@ class MapMaker {
 
   TopologicalMap make() {
     addObjects();
-    for (common::MapPassage& passage : given_.passages)
-      if (!isFoundAgain(passage)) made_.passages.push_back(take(std::move(passage)));
-    for (common::MapPlace& place : given_.places)
-      if (!isFoundAgain(place)) made_.places.push_back(take(std::move(place)));
-    for (common::DangerZone& zone : given_.danger_zones) made_.danger_zones.push_back(take(std::move(zone)));
+    for (const common::MapPassage& passage : given_.passages)
+      if (!isFoundAgain(passage)) made_.passages.push_back(take(passage));
+    for (const common::MapPlace& place : given_.places)
+      if (!isFoundAgain(place)) made_.places.push_back(take(place));
+    for (const common::DangerZone& zone : given_.danger_zones) made_.danger_zones.push_back(take(zone));
     addHome();
     if (names_mission_places_) addMissionPlaces();
     addZones();

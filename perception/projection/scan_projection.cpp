@@ -28,9 +28,9 @@ constexpr double kMixedJump_m = 0.10;
 /// The spots of small lasers are as wide as their beams are apart, up to 0.36 deg. Where beams are farther apart, three
 /// neighbours often meet three things, so a range between the others is no evidence of one.
 constexpr double kMixedSpacing_rad = 0.4 * common::kRadPerDeg;
-/// On a slanted wall neighbouring ranges differ as much. Two neighbours are not on one wall if it would pass this near
-/// to the laser, within the hull.
-constexpr double kBesideLaser_m = 0.10;
+/// On a slanted wall neighbouring ranges differ as much, but evenly, and two neighbours are not on one wall if it would
+/// pass this near to the laser, within the hull.
+constexpr double kEvenShare = 0.25, kBesideLaser_m = 0.10;
 
 struct Affine {
   Eigen::Matrix3d rotation;
@@ -180,14 +180,18 @@ class BeamSorter {
   /// Whether the range lies between those of its neighbours, and is on a wall with neither. A thin thing before a wall
   /// is nearer than both and counts.
   bool isMixed(int beam) const {
-    if (scan_.angle_increment_rad > kMixedSpacing_rad || beam < 1 || beam + 1 >= beams()) return false;
+    if (scan_.angle_increment_rad > kMixedSpacing_rad || beam < 2 || beam + 2 >= beams()) return false;
     const double before_m = rangeOf(beam - 1), here_m = rangeOf(beam), after_m = rangeOf(beam + 1);
+    const double towards_m = here_m - before_m, away_m = after_m - here_m;
+    if (!(towards_m * away_m > 0.0) || std::min(std::abs(towards_m), std::abs(away_m)) < kMixedJump_m) return false;
+    if (std::max(before_m, after_m) > scan_.range_max_m) return false;
+    const double even_m = kEvenShare * std::abs(towards_m + away_m);
+    const bool both_flat =
+        std::abs(before_m - rangeOf(beam - 2)) < even_m && std::abs(rangeOf(beam + 2) - after_m) < even_m;
     const auto areApart = [&](double one_m, double other_m) {
-      const double jump_m = std::abs(one_m - other_m);
-      return jump_m >= kMixedJump_m && one_m * other_m * std::abs(scan_.angle_increment_rad) < kBesideLaser_m * jump_m;
+      return one_m * other_m * std::abs(scan_.angle_increment_rad) < kBesideLaser_m * std::abs(one_m - other_m);
     };
-    return (here_m - before_m) * (after_m - here_m) > 0.0 && areApart(before_m, here_m) && areApart(here_m, after_m) &&
-           std::max(before_m, after_m) <= scan_.range_max_m;
+    return both_flat || (areApart(before_m, here_m) && areApart(here_m, after_m));
   }
 
   const common::LaserScan& scan_;

@@ -258,6 +258,10 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   grid->set(grid->cellAt(4.0, 1.9), common::occupancy::kMaxSteps);
   grid->set(grid->cellAt(4.0, 2.1), common::occupancy::kMaxSteps);
   answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
+    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  }
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage) << "nobody has gone";
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;

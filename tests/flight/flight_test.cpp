@@ -33,7 +33,8 @@ std::vector<std::string> shippedMissions() {
     const auto has = [&](const char* leaf) { return text.find(leaf) != std::string::npos; };
     const bool needs_map = has("<Localize");  // Flown in FlyWithMap.
     // A person, a camera, a target at its place: flown in MissionInItsTrial.
-    const bool needs_more = has("<FollowMe") || has("<Survey") || has("<Inspect");
+    const bool needs_more =
+        has("<FollowMe") || has("<Survey") || has("<Inspect") || has("<ReturnToMe") || has("<LandOnPattern");
     if (has("leave_building=\"true\"")) continue;  // Their worlds are outdoors: flown in their trials.
     const bool needs_camera = has("<LookAround") || has("<ExploreUntilFound");  // Flown in CameraMission.
     if (!needs_map && !needs_more && !needs_camera) names.push_back(entry.path().stem().string());
@@ -109,14 +110,16 @@ class MissionInItsTrial : public WithSmallCamera, public testing::WithParamInter
 
 // The criteria of those trials are for many seeds; one flight must be done and touch nothing. It has the laser alone,
 // because a flight with the camera takes four times as long, and so no furniture below the laser's plane; only an
-// inspection is none without a camera.
+// inspection and a landing on a pattern are none without a camera.
 TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
-  std::string trial = readText(std::string(SWIFTLET_SOURCE_DIR) + "/trials/" + GetParam() + ".yaml");
+  const std::string trials = std::string(SWIFTLET_SOURCE_DIR) + "/trials/", file = GetParam() + ".yaml";
+  std::string trial = readText(fs::exists(trials + file) ? trials + file : trials + "papers/" + file);
   const bool sees = GetParam() == "inspect";
+  const std::string with_laser = GetParam() == "land_on_pattern" ? "dlr_landing" : "swiftlet";
   if (const std::size_t world = trial.find("unb_map3d.sdf"); !sees && world != std::string::npos)
     trial.replace(world, std::strlen("unb_map3d.sdf"), "unb_case1.sdf");
   const ProgramEnd end =
-      runSwiftlet({"trial", write(GetParam() + ".yaml", trial), "--system", sees ? smallCamera() : "swiftlet", "--seed",
+      runSwiftlet({"trial", write(GetParam() + ".yaml", trial), "--system", sees ? smallCamera() : with_laser, "--seed",
                    "3", "--repeat", "1", "--json", "--out", path("out")});
   ASSERT_LE(end.exit_code, 1) << describe(end);
   const auto flight = nlohmann::json::parse(end.out).at("trials").at(0).at("flights").at(0);
@@ -124,7 +127,9 @@ TEST_P(MissionInItsTrial, IsFlownToItsEnd) {
   EXPECT_EQ(flight.at("collisions"), 0) << flight.dump(2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial, testing::Values("follow_me", "inspect", "survey_floor"), kByName);
+INSTANTIATE_TEST_SUITE_P(Each, MissionInItsTrial,
+                         testing::Values("follow_me", "inspect", "survey_floor", "land_on_pattern", "unb_return_to_me"),
+                         kByName);
 
 class BareRoom : public WithSmallCamera {
  protected:

@@ -28,9 +28,7 @@ double heap_MB() { return 1e-6 * static_cast<double>(mallinfo2().uordblks + mall
 class Tunnel {
  public:
   Tunnel(const mapping3d::SubmapConfig& submaps, int key_frames)
-      : store_(submaps, voxels_, noise_),
-        key_frames_(key_frames),
-        publisher_(voxels_.resolution_m, *jobs_) {}
+      : store_(submaps, voxels_, noise_), key_frames_(key_frames), publisher_(voxels_.resolution_m, *jobs_) {}
 
   void fly(int steps) {
     for (int i = 0; i < steps; ++i) step();

@@ -188,11 +188,12 @@ TEST_F(ExploreManeuver, LooksPastSomebodyCountNoLongerOnceHeHasGone) {
   EXPECT_GE(executor_.desk().use().viewpoints, viewpoints + 3);
 }
 
-/// Free space is seen behind a slit in the wall. While it looks there, a door is opened elsewhere.
+/// Free space is seen behind a slit in the wall, and not all of it. While it looks there, a door is opened elsewhere.
 TEST_F(ExploreManeuver, LooksBehindAGapOnceThoughMoreOpensMeanwhile) {
   build(false);
   fill(grid_, {{100, 24}, {117, 48}}, kWallCell);
   fill(grid_, {{101, 25}, {116, 47}}, kFreeCell);
+  fill(grid_, {{112, 25}, {116, 47}}, common::occupancy::kUnknown);
   fill(grid_, {{100, 33}, {101, 39}}, kFreeCell);
   want(common::ExploreIntent{});
   run(10.0);
