@@ -28,9 +28,8 @@ constexpr double kMixedJump_m = 0.10;
 /// The spots of small lasers are as wide as their beams are apart, up to 0.36 deg. Where beams are farther apart, three
 /// neighbours often meet three things, so a range between the others is no evidence of one.
 constexpr double kMixedSpacing_rad = 0.4 * common::kRadPerDeg;
-/// On a slanted wall neighbouring ranges differ as much, but evenly, and two neighbours are not on one wall if it would
-/// pass this near to the laser, within the hull.
-constexpr double kEvenShare = 0.25, kBesideLaser_m = 0.10;
+/// On a slanted wall neighbouring ranges differ as much, but evenly.
+constexpr double kEvenShare = 0.25;
 
 struct Affine {
   Eigen::Matrix3d rotation;
@@ -177,21 +176,16 @@ class BeamSorter {
   /// True for NaN.
   bool isTooShort(double range_m) const { return !(range_m >= scan_.range_min_m) || range_m <= 0.0; }
 
-  /// Whether the range lies between those of its neighbours, and is on a wall with neither. A thin thing before a wall
-  /// is nearer than both and counts.
+  /// Whether the range lies between those of two surfaces that the neighbours see. A thin thing before a wall is nearer
+  /// than both and counts.
   bool isMixed(int beam) const {
     if (scan_.angle_increment_rad > kMixedSpacing_rad || beam < 2 || beam + 2 >= beams()) return false;
-    const double before_m = rangeOf(beam - 1), here_m = rangeOf(beam), after_m = rangeOf(beam + 1);
-    const double towards_m = here_m - before_m, away_m = after_m - here_m;
-    if (!(towards_m * away_m > 0.0) || std::min(std::abs(towards_m), std::abs(away_m)) < kMixedJump_m) return false;
-    if (std::max(before_m, after_m) > scan_.range_max_m) return false;
-    const double even_m = kEvenShare * std::abs(towards_m + away_m);
-    const bool both_flat =
-        std::abs(before_m - rangeOf(beam - 2)) < even_m && std::abs(rangeOf(beam + 2) - after_m) < even_m;
-    const auto areApart = [&](double one_m, double other_m) {
-      return one_m * other_m * std::abs(scan_.angle_increment_rad) < kBesideLaser_m * std::abs(one_m - other_m);
-    };
-    return both_flat || (areApart(before_m, here_m) && areApart(here_m, after_m));
+    std::array<double, 4> steps_m{};
+    for (int i = 0; i < 4; ++i) steps_m[static_cast<std::size_t>(i)] = rangeOf(beam + i - 1) - rangeOf(beam + i - 2);
+    const double towards_m = steps_m[1], away_m = steps_m[2];
+    const double along_m = std::max(std::abs(steps_m[0]), std::abs(steps_m[3]));
+    if (towards_m * away_m <= 0.0 || std::min(std::abs(towards_m), std::abs(away_m)) < kMixedJump_m) return false;
+    return along_m < kEvenShare * std::abs(towards_m + away_m) && rangeOf(beam + 2) <= scan_.range_max_m;
   }
 
   const common::LaserScan& scan_;

@@ -114,7 +114,7 @@ class Closure : public testing::Test {
 
   std::shared_ptr<const KeyPoses> keys_ = keysOf(1, kDrift_rad);
   std::unique_ptr<common::JobRunner> jobs_ = common::makeLockstepJobs(0);
-  Map3dPublisher publisher_{{}, kResolution_m, *jobs_};
+  Map3dPublisher publisher_{kResolution_m, *jobs_};
   double now_s_ = 0.0;
   rendering::Map3dView view_;
   rendering::Map3dRenderer stream_;

@@ -196,11 +196,12 @@ TEST_F(ExploreManeuver, LooksBehindAGapOnceThoughMoreOpensMeanwhile) {
   fill(grid_, {{112, 25}, {116, 47}}, common::occupancy::kUnknown);
   fill(grid_, {{100, 33}, {101, 39}}, kFreeCell);
   want(common::ExploreIntent{});
-  run(10.0);
+  runUntil([this] { return timesSaid("looks once more at what is behind a gap") == 1; }, 60.0);
   ASSERT_EQ(timesSaid("looks once more at what is behind a gap"), 1) << executor_.status().reason;
   fill(grid_, {{20, 80}, {44, 81}}, kFreeCell);
-  runUntil([this] { return looks() == 3; }, 60.0);
-  ASSERT_EQ(looks(), 3);
+  const int looked = looks();
+  runUntil([&] { return looks() > looked; }, 60.0);
+  ASSERT_GT(looks(), looked);
   EXPECT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
   EXPECT_EQ(timesSaid("looks once more at what is behind a gap"), 1);
 }
