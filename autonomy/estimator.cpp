@@ -120,7 +120,7 @@ std::optional<ScanOutcome> Estimator::addScan(const common::LaserScan& scan, Tim
   perception::ProjectedScan measured = project(scan);
   altitude_.removeGround(measured);
   const perception::ProjectedScan unlevelled = withoutPeople(measured, scan.stamps.measured);
-  outcome.scan = laser_.atBodyHeight(measured);
+  outcome.scan = laser_.atBodyHeight(std::move(measured));
   const perception::ProjectedScan standing = laser_.atBodyHeight(unlevelled);
   perception::markPeople(people_.movingAt(scan.stamps.measured), map_.T_map_odom() * planar(outcome.scan.T_odom_body),
                          outcome.scan);

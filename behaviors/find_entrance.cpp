@@ -71,7 +71,7 @@ class FindEntrance final : public FlightLeaf {
   void onResume(tree::TickContext& context) override;
   Status act(tree::TickContext& context) override;
   Status explore(tree::TickContext& context, const common::ExploreIntent& intent);
-  Status enterBy(tree::TickContext& context, const RecognizedObject& door, double depth_m, double clearance_m);
+  Status enterBy(tree::TickContext& context, const RecognizedObject& door, const Eigen::Vector2d& inside_map_m);
   void look(FlightTick& tick, const RecognizedObject& door, const common::ExploreIntent& intent);
   /// Those that may lead inside and were not tried, the nearest first.
   ObjectPointers doorsFrom(const FlightTick& tick, const common::ExploreIntent& intent) const;
@@ -183,8 +183,8 @@ Status FindEntrance::act(tree::TickContext& context) {
   if (!world.objects) return fail(context, "the profile recognizes no openings");
   const ObjectPointers doors = doorsFrom(tick, *intent);
   for (const RecognizedObject* door : doors)
-    if (placeInside(tick, *door, *depth_m, intent->clearance_m))
-      return enterBy(context, *door, *depth_m, intent->clearance_m);
+    if (const auto inside_map_m = placeInside(tick, *door, *depth_m, intent->clearance_m))
+      return enterBy(context, *door, *inside_map_m);
   if (look_ && isTried(look_->door_id)) look_.reset();
   if (!look_ && doors.empty()) return explore(context, *intent);
   const RecognizedObject* door = look_ ? objectWithId(world, look_->door_id) : doors.front();
@@ -234,24 +234,19 @@ void FindEntrance::look(FlightTick& tick, const RecognizedObject& door, const co
   renewIntent();
 }
 
-Status FindEntrance::enterBy(tree::TickContext& context, const RecognizedObject& door, double depth_m,
-                             double clearance_m) {
+Status FindEntrance::enterBy(tree::TickContext& context, const RecognizedObject& door,
+                             const Eigen::Vector2d& inside_map_m) {
   FlightTick& tick = flightTick(context);
   emitHold(tick);
   if (!holdReleased(tick)) return Status::kRunning;
   const auto places = NamedPlaces::in(*tick.flight.world);
   if (!places) return fail(context, places.error());
-  const Eigen::Vector2d inside_map_m = *placeInside(tick, door, depth_m, clearance_m);
   const common::PlaceNames names = tick.flight.world->map->names();
   tick.say(common::Severity::kInfo, "an entrance",
            fmt::format("{:.2f} m wide at {}, the place inside is {}", door.size_m.x(), names.of(middleOf(door)),
                        names.of(inside_map_m)));
-  const auto pointOf = [&](const Eigen::Vector2d& place_map_m) {
-    const Eigen::Vector2d named_m = places->T_map_named().inverse() * place_map_m;
-    return tree::Point{named_m.x(), named_m.y(), std::nullopt};
-  };
-  door_.set(pointOf(middleOf(door)));
-  place_.set(pointOf(inside_map_m));
+  door_.set(places->point(middleOf(door)));
+  place_.set(places->point(inside_map_m));
   return Status::kSuccess;
 }
 

@@ -36,7 +36,7 @@ using tree::Status;
 
 /// Until the frames taken there are recognized: latencies of link and job.
 constexpr double kWindowLook_s = 1.2;
-/// Looks count from places that are 0.2 m apart: perception/recognition/opening_tracker.hpp.
+/// Looks count from places that are 0.2 m apart: perception/recognition/object_tracker.cpp.
 constexpr double kBeside_m = 0.35;
 /// The picture is the same from there; nearer would take longer.
 constexpr double kWindowViewTolerance_m = 0.1;
@@ -199,10 +199,8 @@ Status FindWindow::found(tree::TickContext& context, const RecognizedObject& win
   emitHold(tick);
   if (!holdReleased(tick)) return Status::kRunning;
   const Eigen::Vector3d& middle_map_m = window.T_map_object.position_m;
-  const Eigen::Vector2d named_m =
-      NamedPlaces::in(*tick.flight.world)->T_map_named().inverse() * Eigen::Vector2d(middle_map_m.head<2>());
   window_.set(static_cast<std::int64_t>(window.id));
-  place_.set(tree::Point{named_m.x(), named_m.y(), middle_map_m.z()});
+  place_.set(NamedPlaces::in(*tick.flight.world)->point(middle_map_m));
   tick.say(common::Severity::kInfo, fmt::format("window {} found", window.id),
            fmt::format("open, {:.2f} m wide, at {}, by {} looks", window.size_m.x(),
                        tick.flight.world->map->names().of(Eigen::Vector2d(middle_map_m.head<2>())), window.looks));

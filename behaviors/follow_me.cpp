@@ -4,8 +4,6 @@
 // place.
 #include "behaviors/leaves.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,9 +12,9 @@
 
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/named_places.hpp"
+#include "behaviors/place_around.hpp"
 #include "behaviors/ports.hpp"
 #include "common/geometry.hpp"
-#include "common/line_of_sight.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
@@ -80,25 +78,11 @@ std::optional<common::GoToIntent> placeBeside(const FlightTick& tick, const Eige
   constexpr int kSidesOfPerson = 36;          // Every 10 degrees.
   constexpr double kPersonStands_m = 0.5;     // What the map has there may be the person.
   constexpr double kBesideTolerance_m = 0.2;  // Within the sway of a person who stands.
-  const common::World& world = *tick.flight.world;
-  const Eigen::Vector2d here_map_m = world.vehicle->state.T_map_body_planar().position_m();
-  const auto& map = tick.flight.goal_map;
-  std::optional<common::GoToIntent> nearest;
-  for (int i = 0; i < kSidesOfPerson; ++i) {
-    const double bearing_rad = 2.0 * std::numbers::pi * i / kSidesOfPerson;
-    const Eigen::Vector2d place_map_m =
-        person_map_m + asked.distance_m * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
-    if (map && map->stateAt(place_map_m, asked.clearance_m) != common::PlaceState::kFree) continue;
-    if (!common::isInSight(*world.map->grid, place_map_m, person_map_m, kPersonStands_m)) continue;
-    if (nearest && (place_map_m - here_map_m).norm() >= (nearest->goal_map_m - here_map_m).norm()) continue;
-    nearest.emplace();
-    nearest->goal_map_m = place_map_m;
-    nearest->yaw_map_rad = common::wrapAngle(bearing_rad + std::numbers::pi);
-    nearest->tolerance_m = kBesideTolerance_m;
-    nearest->clearance_m = asked.clearance_m;
-    nearest->mode = asked.mode;
-  }
-  return nearest;
+  common::GoToIntent beside;
+  beside.tolerance_m = kBesideTolerance_m;
+  beside.clearance_m = asked.clearance_m;
+  beside.mode = asked.mode;
+  return nearestPlaceAround(tick, {person_map_m, asked.distance_m, kSidesOfPerson, kPersonStands_m}, beside);
 }
 
 tree::NodeManifest FollowMe::manifest() {

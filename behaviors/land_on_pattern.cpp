@@ -231,10 +231,7 @@ Status LandOnPattern::landOn(tree::TickContext& context, const RecognizedObject&
       (middle_map_m.head<2>() - tick.flight.world->vehicle->state.T_map_body_planar().position_m()).norm();
   if (off_m > std::max(kLeastHalf_m, 0.5 * object.size_m.minCoeff()))
     return fail(context, fmt::format("it stands {:.2f} m off the middle of `{}`", off_m, ports.pattern));
-  if (const auto places = NamedPlaces::in(*tick.flight.world)) {
-    const Eigen::Vector2d named_m = places->T_map_named().inverse() * Eigen::Vector2d(middle_map_m.head<2>());
-    place_.set(tree::Point{named_m.x(), named_m.y(), middle_map_m.z()});
-  }
+  if (const auto places = NamedPlaces::in(*tick.flight.world)) place_.set(places->point(middle_map_m));
   return Status::kSuccess;
 }
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +18,9 @@
 #include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
+#include "behaviors/place_around.hpp"
 #include "behaviors/target_ports.hpp"
 #include "common/geometry.hpp"
-#include "common/line_of_sight.hpp"
 #include "common/world.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/targets_layer.hpp"
@@ -204,8 +203,7 @@ Status LocateTarget::located(tree::TickContext& context, const common::Target& t
   const auto places = NamedPlaces::in(*tick.flight.world);
   if (!places) return fail(context, places.error());
   tick.located_targets.push_back(target.id);
-  const Eigen::Vector2d named_m = places->T_map_named().inverse() * Eigen::Vector2d(target.position_map_m.head<2>());
-  place_.set(tree::Point{named_m.x(), named_m.y(), target.position_map_m.z()});
+  place_.set(places->point(target.position_map_m));
   file_.set(fileOf(target));
   return Status::kSuccess;
 }
@@ -236,35 +234,22 @@ Status LocateTarget::look(FlightTick& tick, const common::Target& target, const 
 /// Among the free places on other sides, the one that is nearest to the vehicle.
 std::optional<common::GoToIntent> LocateTarget::nextView(const FlightTick& tick, const common::Target& target,
                                                          const Ports& ports) const {
-  const common::VehicleState& state = tick.flight.world->vehicle->state;
-  const common::OccupancyGrid& grid = *tick.flight.world->map->grid;
-  const Eigen::Vector2d middle_map_m = target.position_map_m.head<2>();
-  const double below_m = state.T_map_body().position_m.z() - target.position_map_m.z();
+  const double below_m = tick.flight.world->vehicle->state.T_map_body().position_m.z() - target.position_map_m.z();
   const double least_m = std::max({ports.distance_m, below_m / kTanBelow, -below_m / kTanAbove});
-  std::optional<common::GoToIntent> nearest;
+  common::GoToIntent view;
+  view.tolerance_m = kViewTolerance_m;
+  view.clearance_m = ports.clearance_m;
+  view.mode = ports.mode;
+  const auto isOtherSide = [&](double side_rad) {
+    return std::none_of(sides_rad_.begin(), sides_rad_.end(), [&](double before_rad) {
+      return std::abs(common::wrapAngle(side_rad - before_rad)) < kOtherSide_rad;
+    });
+  };
   for (const double share : {1.0, 1.25, 0.85}) {
-    for (int i = 0; i < kSides; ++i) {
-      const double side_rad = 2.0 * std::numbers::pi * i / kSides;
-      const bool known = std::any_of(sides_rad_.begin(), sides_rad_.end(), [&](double before_rad) {
-        return std::abs(common::wrapAngle(side_rad - before_rad)) < kOtherSide_rad;
-      });
-      const Eigen::Vector2d from =
-          middle_map_m + share * least_m * Eigen::Vector2d(std::cos(side_rad), std::sin(side_rad));
-      const auto& map = tick.flight.goal_map;
-      const bool free = !map || map->stateAt(from, ports.clearance_m) == common::PlaceState::kFree;
-      if (known || !free || !common::isInSight(grid, from, middle_map_m, kTargetNear_m)) continue;
-      const Eigen::Vector2d here = state.T_map_body_planar().position_m();
-      if (nearest && (from - here).norm() >= (nearest->goal_map_m - here).norm()) continue;
-      nearest.emplace();
-      nearest->goal_map_m = from;
-      nearest->yaw_map_rad = common::wrapAngle(side_rad + std::numbers::pi);
-      nearest->tolerance_m = kViewTolerance_m;
-      nearest->clearance_m = ports.clearance_m;
-      nearest->mode = ports.mode;
-    }
-    if (nearest) return nearest;
+    const PlacesAround around{target.position_map_m.head<2>(), share * least_m, kSides, kTargetNear_m};
+    if (const auto nearest = nearestPlaceAround(tick, around, view, isOtherSide)) return nearest;
   }
-  return nearest;
+  return std::nullopt;
 }
 
 }  // namespace

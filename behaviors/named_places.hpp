@@ -36,6 +36,16 @@ class NamedPlaces {
     return T_map_given_ ? *T_map_given_ * named_m : named_m;
   }
   Eigen::Vector2d inMap_m(const tree::Point& named) const { return inMap_m(Eigen::Vector2d(named.x, named.y)); }
+  /// The point by which a mission names a place of `map`; one of the plane has no height.
+  tree::Point point(const Eigen::Vector2d& place_map_m) const {
+    const Eigen::Vector2d named_m = T_map_named().inverse() * place_map_m;
+    return {named_m.x(), named_m.y(), std::nullopt};
+  }
+  tree::Point point(const Eigen::Vector3d& place_map_m) const {
+    tree::Point named = point(Eigen::Vector2d(place_map_m.head<2>()));
+    named.z = place_map_m.z();
+    return named;
+  }
   double yawInMap_rad(double named_deg) const {
     const double named_rad = named_deg * common::kRadPerDeg;
     return T_map_given_ ? common::wrapAngle(T_map_given_->yaw_rad + named_rad) : named_rad;

@@ -23,10 +23,7 @@ ObjectPointers objectsNear(const common::World& world, std::string_view what, co
 }
 
 const RecognizedObject* objectWithId(const common::World& world, int id) {
-  if (world.objects == nullptr) return nullptr;
-  const auto& objects = world.objects->objects;
-  const auto found = std::find_if(objects.begin(), objects.end(), [id](const auto& one) { return one.id == id; });
-  return found == objects.end() ? nullptr : &*found;
+  return world.objects == nullptr ? nullptr : world.objects->withId(id);
 }
 
 bool isOpenFor(const RecognizedObject& opening, double width_m) {

@@ -165,8 +165,7 @@ void measureBehaviors(const FlightRecord& flight, const TrueWorld& world, Flight
     if (const auto share = surveyCoverage(area, world, flight.T_world_map, flight.T_world_body_views))
       keepLeast(score["survey_coverage"], *share);
   for (const BehaviorRecord::Explored& explored : record.explored) {
-    const auto area = checkExploredArea(explored, world, flight.T_world_map);
-    const auto volume = checkExploredVolume(explored, world, flight.T_world_map);
+    const auto [area, volume] = checkExplored(explored, world, flight.T_world_map);
     if (area) keepGreatest(score["explored_unseen_share"], area->unseen_share);
     if (volume) keepGreatest(score["explored_unseen_volume_share"], volume->unseen_share);
     score.certificates.push_back(certificateOf(area, volume));

@@ -170,18 +170,14 @@ std::string textOf(const ExploredCheck& check, const char* what, const char* uni
   return text;
 }
 
-}  // namespace
-
-std::optional<ExploredCheck> checkExploredArea(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                               const common::Pose3& T_world_map) {
-  const auto space = explorableSpace(explored, world, T_world_map);
-  if (!space) return std::nullopt;
+ExploredCheck checkArea(const simulation::FreeSpace& space, const BehaviorRecord::Explored& explored,
+                        const common::Pose3& T_world_map) {
   const common::Pose2 T_map_world = common::planar(T_world_map).inverse();
-  ExploredCells unseen(space->covered.resolution_m());
+  ExploredCells unseen(space.covered.resolution_m());
   std::size_t all = 0, left = 0;
-  space->covered.forEachCell([&](CellIndex cell, std::uint8_t covered) {
+  space.covered.forEachCell([&](CellIndex cell, std::uint8_t covered) {
     if (covered == 0) return;
-    const Eigen::Vector2d place_map_m = T_map_world * space->covered.centerOf(cell);
+    const Eigen::Vector2d place_map_m = T_map_world * space.covered.centerOf(cell);
     if (!isAskedFor(explored, place_map_m)) return;
     ++all;
     if (!common::occupancy::isUnknown(explored.map->at(explored.map->cellAt(place_map_m)))) return;
@@ -195,21 +191,19 @@ std::optional<ExploredCheck> checkExploredArea(const BehaviorRecord::Explored& e
   return check;
 }
 
-std::optional<ExploredCheck> checkExploredVolume(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                                 const common::Pose3& T_world_map) {
+std::optional<ExploredCheck> checkVolume(const simulation::FreeSpace& space, const BehaviorRecord::Explored& explored,
+                                         const TrueWorld& world, const common::Pose3& T_world_map) {
   if (!world.rgbd_camera || !explored.map3d || !explored.map3d->fused) return std::nullopt;
-  const auto space = explorableSpace(explored, world, T_world_map);
-  if (!space) return std::nullopt;
   const common::Pose2 T_map_world = common::planar(T_world_map).inverse();
   const double height_m = explored.height_world_m - T_world_map.position_m.z();
   // Places half a metre from each other, or more in a large building.
   constexpr double kApart_m = 0.5, kMostPlaces = 1000.0;
-  const double apart_m = std::max(kApart_m, std::sqrt(space->reachable_area_m2 / kMostPlaces));
-  const int step = static_cast<int>(std::lround(apart_m / space->reachable.resolution_m()));
+  const double apart_m = std::max(kApart_m, std::sqrt(space.reachable_area_m2 / kMostPlaces));
+  const int step = static_cast<int>(std::lround(apart_m / space.reachable.resolution_m()));
   VoxelMap voxels(kJudgedVoxel_m);
-  space->reachable.forEachCell([&](CellIndex cell, std::uint8_t is_reachable) {
+  space.reachable.forEachCell([&](CellIndex cell, std::uint8_t is_reachable) {
     if (is_reachable == 0 || cell.x % step != 0 || cell.y % step != 0) return;
-    const Eigen::Vector2d place_map_m = T_map_world * space->reachable.centerOf(cell);
+    const Eigen::Vector2d place_map_m = T_map_world * space.reachable.centerOf(cell);
     if (!isAskedFor(explored, place_map_m)) return;
     lookAllAround({Eigen::Quaterniond::Identity(), {place_map_m.x(), place_map_m.y(), height_m}}, world, T_world_map,
                   voxels);
@@ -230,6 +224,15 @@ std::optional<ExploredCheck> checkExploredVolume(const BehaviorRecord::Explored&
   check.unseen_share = static_cast<double>(left) / static_cast<double>(all);
   check.left = placesOf(voxels);
   return check;
+}
+
+}  // namespace
+
+ExploredChecks checkExplored(const BehaviorRecord::Explored& explored, const TrueWorld& world,
+                             const common::Pose3& T_world_map) {
+  const auto space = explorableSpace(explored, world, T_world_map);
+  if (!space) return {};
+  return {checkArea(*space, explored, T_world_map), checkVolume(*space, explored, world, T_world_map)};
 }
 
 std::string certificateOf(const std::optional<ExploredCheck>& area, const std::optional<ExploredCheck>& volume) {

@@ -26,16 +26,18 @@ struct ExploredCheck {
   std::vector<UnseenPlace> left;  ///< What was not seen, the greatest first; single cells are not listed.
 };
 
-/// Of the area that the hull could cover, by the truth, at the height of flight and with the clearance that was asked
-/// for, what the map did not have. Nobody stands in its way, as whoever does may go. nullopt if the world is open, if
-/// there were keep-out zones, which the flood does not know, or if the hull hardly fits where it took off.
-std::optional<ExploredCheck> checkExploredArea(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                               const common::Pose3& T_world_map);
+struct ExploredChecks {
+  /// Of the area that the hull could cover, by the truth, at the height of flight and with the clearance that was asked
+  /// for, what the map did not have. Nobody stands in its way, since people may go. nullopt if the world is open, if
+  /// there were keep-out zones, which the flood does not know, or if the hull hardly fits where it took off.
+  std::optional<ExploredCheck> area;
+  /// Of the volume that an ideal camera could see from the reachable places, at the height of flight, in any direction
+  /// and within its range, what the 3D map did not have. nullopt as above, or without a depth camera or a 3D map.
+  std::optional<ExploredCheck> volume;
+};
 
-/// Of the volume that an ideal camera could see from the reachable places, at the height of flight, in any direction
-/// and within its range, what the 3D map did not have. nullopt as above, or without a depth camera or a 3D map.
-std::optional<ExploredCheck> checkExploredVolume(const BehaviorRecord::Explored& explored, const TrueWorld& world,
-                                                 const common::Pose3& T_world_map);
+ExploredChecks checkExplored(const BehaviorRecord::Explored& explored, const TrueWorld& world,
+                             const common::Pose3& T_world_map);
 
 /// For people: "explored: all of 93.4 m2 reachable was seen", or what is left and where.
 std::string certificateOf(const std::optional<ExploredCheck>& area, const std::optional<ExploredCheck>& volume);

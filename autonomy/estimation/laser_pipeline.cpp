@@ -43,8 +43,9 @@ void LaserPipeline::learnWalls(const perception::ProjectedScan& scan, const comm
   walls_->add(scan, T_odom_body);
 }
 
-perception::ProjectedScan LaserPipeline::atBodyHeight(const perception::ProjectedScan& scan) const {
-  return walls_->atHeight(scan, scan.T_odom_body.position_m.z());
+perception::ProjectedScan LaserPipeline::atBodyHeight(perception::ProjectedScan scan) const {
+  if (walls_->any()) return walls_->atHeight(scan, scan.T_odom_body.position_m.z());
+  return scan;
 }
 
 perception::ProjectedScan LaserPipeline::project(const common::LaserScan& scan,

@@ -58,7 +58,7 @@ class LaserPipeline {
   /// Learns where walls lean, from a scan whose pose is known.
   void learnWalls(const perception::ProjectedScan& scan, const common::Pose3& T_odom_body);
   /// The scan at the height of the body: ends on leaning walls are moved along these.
-  perception::ProjectedScan atBodyHeight(const perception::ProjectedScan& scan) const;
+  perception::ProjectedScan atBodyHeight(perception::ProjectedScan scan) const;
 
   /// See LaserOdometry::refused.
   void refused(bool by_filter) { odometry_.refused(by_filter); }

@@ -69,12 +69,6 @@ constexpr double kFarAhead_m = 100.0;
 /// The opening is seen whole, with this much of the wall at its sides.
 constexpr double kWallBeside_m = 0.15;
 
-const RecognizedObject* withId(const common::ObjectsLayer* layer, int id) {
-  if (layer == nullptr) return nullptr;
-  const auto found = std::ranges::find(layer->objects, id, &RecognizedObject::id);
-  return found == layer->objects.end() ? nullptr : &*found;
-}
-
 /// The nearest of that name in the same place; null without one.
 const RecognizedObject* inPlace(const common::ObjectsLayer* layer, const std::string& what,
                                 const Eigen::Vector2d& place_map_m) {
@@ -179,7 +173,7 @@ bool FlyThrough::track(const RecognizedObject& opening, const ManeuverInput& inp
 }
 
 Progress FlyThrough::fly(const ManeuverInput& input) {
-  const RecognizedObject* opening = withId(input.objects.get(), intent_.object_id);
+  const RecognizedObject* opening = input.objects ? input.objects->withId(intent_.object_id) : nullptr;
   // Two tracks of one window are merged, and only one of their numbers is left.
   if (opening == nullptr && width_m_ > 0.0) opening = inPlace(input.objects.get(), intent_.what, axis_.middle_map_m);
   if (opening == nullptr && width_m_ == 0.0)

@@ -180,11 +180,12 @@ void FlightSpace::addFlown(const planning::Footprint& footprint) {
     const Vector3d middle_map_m = place_map_m + middle_m() * Vector3d::UnitZ();
     const VoxelIndex low = voxelAt(middle_map_m - Vector3d(radius_m, radius_m, half_m)),
                      high = voxelAt(middle_map_m + Vector3d(radius_m, radius_m, half_m));
-    for (int z = low.z; z <= high.z; ++z)
-      for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
+    const VoxelIndex end{box_.begin.x + box_.size.x, box_.begin.y + box_.size.y, box_.begin.z + box_.size.z};
+    for (int z = std::max(low.z, box_.begin.z); z < std::min(high.z + 1, end.z); ++z)
+      for (int y = std::max(low.y, box_.begin.y); y < std::min(high.y + 1, end.y); ++y)
+        for (int x = std::max(low.x, box_.begin.x); x < std::min(high.x + 1, end.x); ++x) {
           const Vector2d center_m((x + 0.5) * voxel_m_, (y + 0.5) * voxel_m_);
-          if (!box_.contains({x, y, z}) || (center_m - middle_map_m.head<2>()).norm() > radius_m) continue;
+          if ((center_m - middle_map_m.head<2>()).norm() > radius_m) continue;
           if (State& state = states_[indexOf({x, y, z})]; state == kUnknown) state = kFree;
         }
   };

@@ -47,6 +47,11 @@ struct ObjectsLayer {
   std::vector<RecognizedObject> objects;  ///< In the order of their ids.
 
   bool operator==(const ObjectsLayer&) const = default;
+  /// Null without one of that id.
+  const RecognizedObject* withId(int id) const {
+    const auto found = std::find_if(objects.begin(), objects.end(), [id](const auto& one) { return one.id == id; });
+    return found == objects.end() ? nullptr : &*found;
+  }
 };
 
 }  // namespace swiftlet::common

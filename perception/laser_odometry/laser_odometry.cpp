@@ -342,7 +342,7 @@ bool LaserOdometry::Impl::shouldJoin(const RelativePose& relative, const Project
 /// was none. While their planes are being learned, which takes a few centimetres of height, inertia knows better.
 bool LaserOdometry::Impl::isDoubtedInClimb(const ProjectedScan& scan, const MatchResult& match) {
   constexpr double kClimbed_m = 0.03, kFitsWell = 0.8, kLearned_s = 0.3;
-  if (amongLeaningWalls()) return false;  // Their planes are known.
+  if (walls == nullptr || walls->any()) return false;  // Not learned, or known.
   if (match.quality >= kFitsWell) section.doubted_since.reset();
   const double climbed_m = scan.T_odom_body.position_m.z() - key_scans.back().scan.T_odom_body.position_m.z();
   if (match.quality >= kFitsWell || std::abs(climbed_m) < kClimbed_m) return false;
@@ -407,7 +407,7 @@ std::optional<RelativePose> LaserOdometry::add(const ProjectedScan& scan, const 
   const Pose2 held_T_local_now = self.held_T_local_body * T_last_now;
   if (self.refused_since && (scan.stamp - *self.refused_since).seconds() >= kRefused_s)
     found = self.findWhereHeld(matched, found, {held_T_local_now, guess.window});
-  if (self.walls != nullptr && self.isDoubtedInClimb(scan, found.match)) found.margin = -1.0;
+  if (self.isDoubtedInClimb(scan, found.match)) found.margin = -1.0;
   const auto& [match, margin, otherwise] = found;
   if (margin < 0.0) {
     ++self.counts.failures;

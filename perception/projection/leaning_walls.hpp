@@ -1,7 +1,7 @@
-// Walls that do not stand upright: roofs, tents, hulls of ships. Whoever takes a scan for a horizontal section of the
-// surroundings is wrong about them as soon as the vehicle tilts or climbs: a roof of 45 deg at 3 m seems to come 0.26 m
-// nearer at 5 deg of tilt. In each cell of a grid a plane is fitted to the ends of beams (the normal distributions
-// transform, Biber and Strasser 2003, in space: Magnusson 2009); where it leans, ends are moved along it to one height.
+// Walls that do not stand upright: roofs, tents, hulls of ships. A scan is no horizontal section of them as soon as the
+// vehicle tilts or climbs: a roof of 45 deg at 3 m seems to come 0.26 m nearer at 5 deg of tilt. In each cell of a grid
+// a plane is fitted to the ends of beams (the normal distributions transform, Biber and Strasser 2003, in space:
+// Magnusson 2009); where it leans, ends are moved along it to one height.
 //
 //   ends of beams, at the poses of the filter --> mean and covariance in each cell --> plane --> leans, or not
 //                                                                                         |

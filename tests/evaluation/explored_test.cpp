@@ -33,7 +33,7 @@ class ExploredStory : public testing::Test {
     });
     explored_.map = std::make_shared<const common::OccupancyGrid>(map);
   }
-  std::optional<ExploredCheck> check() const { return checkExploredArea(explored_, world_, T_world_map_); }
+  std::optional<ExploredCheck> check() const { return checkExplored(explored_, world_, T_world_map_).area; }
   std::optional<double> unseen() const {
     const auto checked = check();
     return checked ? std::optional(checked->unseen_share) : std::nullopt;
@@ -70,7 +70,7 @@ TEST_F(ExploredStory, TheCertificateNamesWhatIsLeft) {
 /// The camera could see both rooms from the left one and the right one; the 3D map has the left one only.
 TEST_F(ExploredStory, OfTheVolumeWhatThe3dMapDoesNotHaveIsLeft) {
   world_.rgbd_camera.emplace();
-  EXPECT_FALSE(checkExploredVolume(explored_, world_, T_world_map_)) << "no 3D map";
+  EXPECT_FALSE(checkExplored(explored_, world_, T_world_map_).volume) << "no 3D map";
   const auto knownUpTo = [&](double x_world_m) {
     common::VoxelMap map(0.1);
     for (int z = 0; z < 40; ++z)
@@ -79,7 +79,7 @@ TEST_F(ExploredStory, OfTheVolumeWhatThe3dMapDoesNotHaveIsLeft) {
     auto layer = std::make_shared<common::Map3dLayer>();
     layer->fused = std::make_shared<const common::VoxelMap>(std::move(map));
     explored_.map3d = layer;
-    return checkExploredVolume(explored_, world_, T_world_map_);
+    return checkExplored(explored_, world_, T_world_map_).volume;
   };
   const auto whole = knownUpTo(9.0);
   ASSERT_TRUE(whole);
