@@ -33,6 +33,8 @@ constexpr double kExplorePeriod_s = 0.5, kExplorePeriodShare = 0.15;
 constexpr int kDoneAnswers = 2;
 /// The place behind a gap moves by a few cells as the map grows.
 constexpr double kSameGap_m = 0.5;
+/// Time for which it looks at what is behind a gap, from the first look on: who has left it has gone from the map then.
+constexpr double kLookThrough_s = 20.0;
 
 class Explore final : public PathManeuver {
  public:
@@ -62,9 +64,13 @@ class Explore final : public PathManeuver {
   common::Hysteresis looks_{kLook_s};  ///< From the viewpoint, with the right heading.
   Patience patience_;                  ///< It is shut in, or what is left is behind something that may go.
   int done_answers_ = 0;               ///< Those without an open frontier that came while the vehicle stood still.
-  std::optional<Eigen::Vector2d> gap_map_m_;   ///< PlanningAnswer::gap_map_m of the last answer.
-  std::vector<Eigen::Vector2d> looked_map_m_;  ///< Places behind gaps that it has looked at.
-  std::vector<common::Frontier> left_;         ///< The frontiers of the last answer.
+  std::optional<Eigen::Vector2d> gap_map_m_;  ///< PlanningAnswer::gap_map_m of the last answer.
+  struct Look {
+    Eigen::Vector2d gap_map_m;
+    common::Time since;
+  };
+  std::vector<Look> looks_through_;     ///< The first looks at what is behind gaps.
+  std::vector<common::Frontier> left_;  ///< The frontiers of the last answer.
 };
 
 Explore::Explore(const common::ExploreIntent& intent, const ManeuverSetup& setup)
@@ -148,6 +154,7 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
     gap_map_m_ = answer.gap_map_m;
     if (!result.done || answer.blockage) return waitFor(result, answer.blockage, now);
     if (gap_map_m_ && isToBeLookedThrough(*gap_map_m_, now)) return lookThrough(now);
+    patience_.reset();
     if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers) return explored(result, now);
   }
   return Progress::running(reason_);
@@ -188,21 +195,22 @@ bool Explore::forgetLooksPast(const Blockage& gone) {
          }) > 0;
 }
 
-/// Each gap once: a look that opens something else to explore would be repeated after that for ever.
+/// Each gap for a while: a look that opens something else to explore would be repeated after that for ever.
 bool Explore::isToBeLookedThrough(const Eigen::Vector2d& gap_map_m, Time now) const {
-  if (patience_.waits()) return !patience_.over(now);
-  return std::none_of(looked_map_m_.begin(), looked_map_m_.end(), [&](const Eigen::Vector2d& looked_map_m) {
-    return (looked_map_m - gap_map_m).norm() < kSameGap_m;
-  });
+  const auto look = std::find_if(looks_through_.begin(), looks_through_.end(),
+                                 [&](const Look& one) { return (one.gap_map_m - gap_map_m).norm() < kSameGap_m; });
+  return look == looks_through_.end() || (now - look->since).seconds() < kLookThrough_s;
 }
 
 /// Somebody in a door leaves a gap beside him, and so does what is left in the map of who has gone.
 Progress Explore::lookThrough(Time now) {
-  if (!patience_.waits()) {
-    looked_map_m_.push_back(*gap_map_m_);
+  if (std::none_of(looks_through_.begin(), looks_through_.end(),
+                   [&](const Look& one) { return (one.gap_map_m - *gap_map_m_).norm() < kSameGap_m; })) {
+    looks_through_.push_back({*gap_map_m_, now});
     setup_.memory.log.info(now, kFlightSource, "looks once more at what is behind a gap",
                            setup_.desk.costMap()->names().of(*gap_map_m_));
   }
+  patience_.reset();  // The look has an end of its own.
   patience_.failed(now, std::nullopt);
   return Progress::running("looks at what is behind a gap");
 }

@@ -26,6 +26,8 @@ constexpr double kBody_m = common::kPersonHalfWidth_m + 0.10;
 constexpr double kBehind_m = 0.55;
 /// Things nearer to each other than this are one.
 constexpr double kSame_m = 0.3;
+/// Beams that end partly on somebody draw specks this near to the middle of the body, beside it and behind it.
+constexpr double kSpecks_m = 0.75;
 /// Far more than the people of one flight.
 constexpr std::size_t kMostPeople = 64;
 
@@ -66,14 +68,20 @@ class StandingAlone {
       const Thing thing = spread(i);
       too_large_.push_back(thing.too_large);
       const double width_m = std::max(thing.rect.width(), thing.rect.height()) * map_.resolution_m();
-      if (thing.too_large || width_m < kLeastWidth_m || !hasFreeEnds(thing)) continue;
+      if (thing.too_large) continue;
       const Eigen::Vector2d low = map_.centerOf(thing.rect.begin);
       const Eigen::Vector2d high = map_.centerOf({thing.rect.end.x - 1, thing.rect.end.y - 1});
-      discs.push_back(
-          {0.5 * (low + high), std::max(0.5 * (high - low).norm() + map_.resolution_m(), common::kPersonHalfWidth_m)});
+      const common::Disc around{0.5 * (low + high), 0.5 * (high - low).norm() + map_.resolution_m()};
+      if (width_m < kLeastWidth_m)
+        specks_.push_back(around);
+      else if (hasFreeEnds(thing))  // Somebody who sways is drawn in pieces around what was seen first.
+        discs.push_back({around.center_map_m, std::max(around.radius_m, kBody_m)});
     }
     return discs;
   }
+
+  /// After find(): what is too small for a person.
+  const std::vector<common::Disc>& specks() const { return specks_; }
 
   /// After find(): whether most of what is in the disc belongs to something larger, such as a wall that was seen on.
   bool isPartOfMore(const common::Disc& disc) const {
@@ -164,6 +172,7 @@ class StandingAlone {
   std::vector<int> thing_;       ///< Number of the thing that a cell belongs to, from 1; 0: none.
   std::vector<bool> too_large_;  ///< Of each thing.
   std::vector<int> open_;
+  std::vector<common::Disc> specks_;
   double most_cells_;
 };
 
@@ -217,6 +226,13 @@ std::vector<MayGo> WhoMayGo::in(const planning::CostMap& map, std::span<const Ei
   std::erase_if(stood_, [&](const common::Disc& one) { return !anythingIn(map, one) || standing.isPartOfMore(one); });
   for (const common::Disc& disc : stood_)
     if (!known(disc.center_map_m)) things.push_back({disc, "something as wide as a person", false});
+  const std::size_t whole = things.size();
+  for (const common::Disc& speck : standing.specks())
+    for (std::size_t i = 0; i < whole; ++i) {
+      if ((things[i].disc.center_map_m - speck.center_map_m).norm() > kSpecks_m) continue;
+      things.push_back({speck, things[i].who, things[i].came});
+      break;
+    }
   return things;
 }
 

@@ -22,6 +22,8 @@ constexpr double kFlownSpacing_m = 0.1;
 constexpr double kPlaneDetour_m = 10.0, kSpaceSaves_m = 1.0;
 /// Area that must be expected behind something that never moved, and has only the size of a person, to wait for it.
 constexpr double kWorthWaiting_m2 = 1.0;
+/// And length of the frontiers behind it, if the next viewpoint is one that looks past it: more than in its shadow.
+constexpr double kWorthWaiting_m = 1.5;
 /// As much farther off people keep the planner (DynamicObstacles::kKeepOut_m), with a cell.
 constexpr double kKeptOff_m = 0.30;
 /// A place this near to a frontier from which it is approached: the hull keeps off what is unknown.
@@ -158,15 +160,19 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   if (done) findBlockage(request, std::move(input), layers, answer);
 }
 
-/// Brings the map up to date in which all that may go has gone. Returns what that is; nobody is tracked in that map.
-std::vector<MayGo> PlanningWorker::clear(const PlanningRequest& request, const planning::CostLayers& layers) {
+/// Brings the map up to date in which all that may go has gone, and walls need `spared_m` less clearance. Returns what
+/// that is; nobody is tracked in that map.
+std::vector<MayGo> PlanningWorker::clear(const PlanningRequest& request, const planning::CostLayers& layers,
+                                         double spared_m) {
   std::vector<MayGo> things = who_may_go_.in(map_, flown_map_m_);
   // A goal beside a crate is not waited for: only what came may go from it.
   if (!std::holds_alternative<ExploreRequest>(request.question))
     std::erase_if(things, [](const MayGo& thing) { return !thing.came; });
   planning::CostLayers alone = layers;
   alone.discs = {};
-  cleared_.update(gridWithout(things, *request.grid), map_.footprint(), alone);
+  planning::Footprint footprint = map_.footprint();
+  footprint.clearance_m = std::max(0.0, footprint.clearance_m - spared_m);
+  cleared_.update(gridWithout(things, *request.grid), footprint, alone);
   return things;
 }
 
@@ -184,6 +190,7 @@ std::optional<Blockage> PlanningWorker::blockageTo(const Eigen::Vector2d& goal_m
   });
   const bool stands =
       nearest != things.end() && off_m(*nearest) <= nearest->disc.radius_m + map_.footprint().radius_m() + kKeptOff_m;
+  if (!stands && cleared_.footprint().clearance_m < map_.footprint().clearance_m) return std::nullopt;
   // Otherwise the discs of someone who is tracked are in the way.
   const Eigen::Vector2d at_map_m = stands ? nearest->disc.center_map_m : *place_map_m;
   return Blockage{at_map_m, named(stands ? *nearest : MayGo{{at_map_m, 0.0}, "a person"}), 0};
@@ -202,22 +209,29 @@ void PlanningWorker::findBlockage(const PlanningRequest& request, const GoalRequ
   if (const auto place = goalPlace(cleared_, goal)) answer.blockage = blockageTo(*place, here, things);
 }
 
-/// Explores the map as if all that may go had gone: what is open there, and only there, is behind it.
+/// Explores the map as if all that may go had gone: what is open there, and only there, is behind it. Beams that end
+/// partly on somebody in a door and partly on its post draw a cell of it into the opening.
 void PlanningWorker::findBlockage(const PlanningRequest& request, planning::ExplorationInput input,
                                   const planning::CostLayers& layers, PlanningAnswer& answer) {
   const Eigen::Vector2d here = request.T_map_body.position_m();
   const planning::CostField reached = rememberEdge(here);
-  const std::vector<MayGo> things = clear(request, layers);
-  std::erase_if(input.attempts, [&](const planning::ExplorationAttempt& attempt) {
-    return std::any_of(things.begin(), things.end(),
-                       [&](const MayGo& thing) { return isLookPast(attempt, thing.disc.center_map_m); });
-  });
-  input.cost_map = std::make_shared<const planning::CostMap>(cleared_);
   input.current.reset();
-  planning::ExplorationResult behind = planning::explore(input, explorer_);
-  if (behind.next) answer.blockage = blockageOf(*behind.next, here, things);
-  std::erase_if(behind.frontiers, std::not_fn(isOpen));
-  tellBlocked(std::move(behind.frontiers), here, things, answer);
+  for (const double spared_m : {0.0, map_.resolution_m()}) {
+    if (answer.blockage) break;
+    const std::vector<MayGo> things = clear(request, layers, spared_m);
+    if (things.empty() && spared_m > 0.0) break;
+    std::erase_if(input.attempts, [&](const planning::ExplorationAttempt& attempt) {
+      return std::any_of(things.begin(), things.end(),
+                         [&](const MayGo& thing) { return isLookPast(attempt, thing.disc.center_map_m); });
+    });
+    input.cost_map = std::make_shared<const planning::CostMap>(cleared_);
+    planning::ExplorationResult behind = planning::explore(input, explorer_);
+    std::erase_if(behind.frontiers, std::not_fn(isOpen));
+    double open_m = 0.0;
+    for (const common::Frontier& frontier : behind.frontiers) open_m += frontier.length_m;
+    if (behind.next) answer.blockage = blockageOf(*behind.next, open_m, here, things);
+    tellBlocked(std::move(behind.frontiers), here, things, answer);
+  }
   if (!answer.blockage) answer.gap_map_m = gapBefore(reached);
 }
 
@@ -250,8 +264,8 @@ void PlanningWorker::tellBlocked(std::vector<common::Frontier> behind, const Eig
   frontiers.insert(frontiers.begin(), std::make_move_iterator(blocked.begin()), std::make_move_iterator(blocked.end()));
 }
 
-std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,
-                                                   const std::vector<MayGo>& things) {
+std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& viewpoint, double open_m,
+                                                   const Eigen::Vector2d& here, const std::vector<MayGo>& things) {
   const Eigen::Vector2d place_map_m = viewpoint.pose_map.position_m();
   auto blockage = blockageTo(place_map_m, here, things);
   // It may stand in the view from there, and not in the way.
@@ -263,7 +277,8 @@ std::optional<Blockage> PlanningWorker::blockageOf(const planning::Viewpoint& vi
   if (!blockage && thing == things.end()) return std::nullopt;
   if (!blockage) blockage = Blockage{thing->disc.center_map_m, named(*thing), 0};
   const bool came = thing == things.end() || thing->came;
-  return came || viewpoint.gain_m2 >= kWorthWaiting_m2 ? blockage : std::nullopt;
+  const bool worth = viewpoint.gain_m2 >= kWorthWaiting_m2 || open_m >= kWorthWaiting_m;
+  return came || worth ? blockage : std::nullopt;
 }
 
 /// Walks through free cells from those that can be reached on. The gap is where the way to the farthest of the others

@@ -86,10 +86,10 @@ class PlanningWorker {
   std::optional<DetourPlan> detour(const DetourRequest& request, const Eigen::Vector2d& position_map_m);
   void explore(const PlanningRequest& request, const ExploreRequest& question, const planning::CostLayers& layers,
                PlanningAnswer& answer);
-  std::vector<MayGo> clear(const PlanningRequest& request, const planning::CostLayers& layers);
+  std::vector<MayGo> clear(const PlanningRequest& request, const planning::CostLayers& layers, double spared_m = 0.0);
   std::optional<Blockage> blockageTo(const Eigen::Vector2d& goal_map_m, const Eigen::Vector2d& position_map_m,
                                      const std::vector<MayGo>& things);
-  std::optional<Blockage> blockageOf(const planning::Viewpoint& viewpoint, const Eigen::Vector2d& here,
+  std::optional<Blockage> blockageOf(const planning::Viewpoint& viewpoint, double open_m, const Eigen::Vector2d& here,
                                      const std::vector<MayGo>& things);
   void findBlockage(const PlanningRequest& request, const GoalRequest& goal, const planning::CostLayers& layers,
                     PlanningAnswer& answer);

@@ -32,6 +32,16 @@ int Columns::surelyAround(common::CellIndex cell) const {
   return surely;
 }
 
+int Columns::topAround(common::CellIndex cell) const {
+  int top = INT16_MIN;
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const Cell& beside = cells_.at({cell.x + dx, cell.y + dy});
+      if (beside.top >= beside.bottom) top = std::max<int>(top, beside.top);
+    }
+  return top;
+}
+
 std::optional<Columns::Extent> Columns::passed(common::CellIndex cell, const Pass& pass) {
   const Cell old = cells_.at(cell);
   if (pass.highest > old.top || pass.lowest < old.bottom || old.scan == pass.scan) return std::nullopt;

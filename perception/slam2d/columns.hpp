@@ -37,10 +37,15 @@ class Columns {
 
   /// A beam ended in the cell. Heights are its own if it is confirmed, and none otherwise.
   void ended(common::CellIndex cell, const Extent& confirmed);
-  /// Extent::surely of the cells around.
+  /// Greatest Extent::surely and Extent::top of the cell and those around it; INT16_MIN where nothing stands.
   int surelyAround(common::CellIndex cell) const;
+  int topAround(common::CellIndex cell) const;
   /// Returns where something was, if that has gone now: it has been passed for long enough since a beam last ended.
   std::optional<Extent> passed(common::CellIndex cell, const Pass& pass);
+  /// Nothing stands in the cell any more.
+  void forget(common::CellIndex cell) {
+    if (cells_.at(cell) != Cell{}) cells_.set(cell, {});
+  }
 
   Columns snapshot() {
     cells_ = cells_.snapshot();

@@ -58,7 +58,7 @@ struct Slam2d::Impl {
   void connectPasses(int other, const MatchResult& match);
   void setAnchor(int key, const Pose2& T_key_body, const Eigen::Matrix3d& covariance_key);
   std::optional<int> keyNear(std::span<const int> keys, const Pose2& pose) const;
-  void draw(const ProjectedScan& scan);
+  std::vector<GoneColumn> draw(const ProjectedScan& scan);
   SlamTask makeTask(std::vector<LoopCandidate> candidates, Kind kind);
 
   Slam2dConfig config;
@@ -223,14 +223,22 @@ bool Slam2d::Impl::correct(const ProjectedScan& scan, SlamUpdate& update) {
   return true;
 }
 
-void Slam2d::Impl::draw(const ProjectedScan& scan) {
+std::vector<GoneColumn> Slam2d::Impl::draw(const ProjectedScan& scan) {
   constexpr std::size_t kScansPerKey = 16;  // Newest drawn scans that are kept with a key scan, to redraw the grid.
-  const AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
+  AttachedScan attached{std::make_shared<const DrawnScan>(thinForDrawing(scan, config.grid)), T_anchor_body};
   if (config.live_map) map.draw(*attached.scan, T_map_body());
-  std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
-  drawn.push_back(attached);
-  if (drawn.size() > kScansPerKey) drawn.pop_front();
+  std::vector<GoneColumn> gone = map.takeGone();
+  const Pose2 T_key_map = poseOf(anchor).inverse();
+  for (const GoneColumn& column : gone) attached.gone_key_m.push_back(T_key_map * column.place_map_m);
   if (task_outstanding) drawn_since_task.emplace_back(anchor, attached);
+  std::deque<AttachedScan>& drawn = graph.keys[static_cast<std::size_t>(anchor)].drawn;
+  drawn.push_back(std::move(attached));
+  if (drawn.size() > kScansPerKey) {
+    const std::vector<Eigen::Vector2d> kept = std::move(drawn.front().gone_key_m);
+    drawn.pop_front();
+    drawn.front().gone_key_m.insert(drawn.front().gone_key_m.begin(), kept.begin(), kept.end());
+  }
+  return gone;
 }
 
 Slam2d::Slam2d(const Slam2dConfig& config) : impl_(std::make_unique<Impl>(config)) {}
@@ -267,10 +275,9 @@ SlamUpdate Slam2d::addScan(const ProjectedScan& scan, const Pose2& T_odom_body,
   }
   if (first) self.last_match = {T_odom_body, scan.stamp};
   if (learned || self.last_drawn.exceeds(T_odom_body, scan.stamp, kDrawDistance_m, kDrawRotation_deg, kDrawTime_s)) {
-    self.draw(scan);
+    update.gone = self.draw(scan);
     self.last_drawn = {T_odom_body, scan.stamp};
     update.drawn = true;
-    update.gone = self.map.takeGone();
   }
   update.T_map_body = self.T_map_body();
   if (learned && !first) self.T_map_odom = update.T_map_body * T_odom_body.inverse();
@@ -384,8 +391,7 @@ bool Slam2d::apply(const SlamResult& result) {
   if (result.data->map) {
     self.map = *result.data->map;
     if (self.flight_height_m) (void)self.map.setFlightHeight(*self.flight_height_m);
-    for (const auto& [key, attached] : self.drawn_since_task)
-      self.map.draw(*attached.scan, self.poseOf(key) * attached.T_key_body);
+    for (const auto& [key, attached] : self.drawn_since_task) drawAttached(self.map, self.poseOf(key), attached);
     (void)self.map.takeGone();  // It was told when it went.
   }
   self.drawn_since_task.clear();

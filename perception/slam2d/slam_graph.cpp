@@ -101,6 +101,11 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
   return result;
 }
 
+void drawAttached(SlicedMap& map, const Pose2& T_map_key, const AttachedScan& attached) {
+  map.draw(*attached.scan, T_map_key * attached.T_key_body);
+  for (const Eigen::Vector2d& place_key_m : attached.gone_key_m) map.forget(T_map_key * place_key_m);
+}
+
 SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config) {
   struct Item {
     const AttachedScan* attached;
@@ -112,7 +117,7 @@ SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config) {
   std::stable_sort(items.begin(), items.end(),
                    [](const Item& a, const Item& b) { return a.attached->scan->stamp < b.attached->scan->stamp; });
   SlicedMap map(config);
-  for (const Item& item : items) map.draw(*item.attached->scan, item.key->T_map_body * item.attached->T_key_body);
+  for (const Item& item : items) drawAttached(map, item.key->T_map_body, *item.attached);
   return map;
 }
 

@@ -21,6 +21,7 @@ namespace swiftlet::perception {
 struct AttachedScan {
   std::shared_ptr<const DrawnScan> scan;
   common::Pose2 T_key_body;
+  std::vector<Eigen::Vector2d> gone_key_m = {};  ///< Places from which something had gone with this scan.
 };
 
 /// A node of the graph.
@@ -64,6 +65,8 @@ std::vector<ProjectedUncertainty> projectUncertainty(const SlamGraph& graph, int
 /// The distance between the positions of two poses, in metres.
 double distance(const common::Pose2& a, const common::Pose2& b);
 
+/// Draws the scan of a key scan, without what had gone then: the scans that saw it go may not be kept.
+void drawAttached(SlicedMap& map, const common::Pose2& T_map_key, const AttachedScan& attached);
 /// Draws all attached scans at the poses of their key scans, oldest scan first.
 SlicedMap drawMap(const SlamGraph& graph, const GridDrawingConfig& config);
 

@@ -264,8 +264,7 @@ void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, Me
   // A single end may be noise of a height or a range.
   const bool confirmed = ended && value > config_.hit_steps;
   const bool low_changed = ended ? confirmed && meetLow(slice, cell, stamp) : low_.passed(cell, slice, stamp);
-  if (ended)
-    columns_.ended(cell, confirmed ? Columns::Extent{slice, slice, slice - unsureSlices(cell)} : Columns::Extent{});
+  if (ended) columns_.ended(cell, confirmed ? metExtent(slice, cell) : Columns::Extent{});
   // An unchanged cell is not written, so that its tile stays shared with the snapshots.
   if (value != old) grid.set(cell, value);
   if (low_changed)
@@ -282,18 +281,28 @@ bool SlicedMap::isGlass(CellIndex cell) const {
   return glass_.passesThrough(cell, Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5) - scan_.body);
 }
 
-/// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed. The outline
-/// of what reaches up, a wall or a person, is met in the cells beside, too.
+/// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed.
 bool SlicedMap::meetLow(int slice, CellIndex cell, common::Time stamp) {
-  if (slice >= scan_.laser_slice) {
-    low_.reachesUp(cell);
-    return false;
-  }
+  if (slice < scan_.laser_slice) return !isOutline(cell) && low_.hit(cell, slice, stamp);
+  low_.reachesUp(cell);
+  return false;
+}
+
+/// Whether the cell is beside what level beams met: the outline of what reaches up, a wall or a person, is met in the
+/// cells beside, too.
+bool SlicedMap::isOutline(CellIndex cell) const {
   const auto level = slices_.find(scan_.laser_slice);
-  for (int dy = -1; level != slices_.end() && dy <= 1; ++dy)
+  if (level == slices_.end()) return false;
+  for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
-      if (occupancy::isOccupied(level->second.at({cell.x + dx, cell.y + dy}))) return false;
-  return low_.hit(cell, slice, stamp);
+      if (occupancy::isOccupied(level->second.at({cell.x + dx, cell.y + dy}))) return true;
+  return false;
+}
+
+/// What a beam that ended in the cell in that slice tells of the heights of what stands there.
+Columns::Extent SlicedMap::metExtent(int slice, CellIndex cell) const {
+  const int top = isOutline(cell) ? std::max(slice, columns_.topAround(cell)) : slice;
+  return {slice, top, slice - unsureSlices(cell)};
 }
 
 /// By how many slices the height of a beam in the cell may be off.
@@ -309,7 +318,6 @@ void SlicedMap::pass(int slice, CellIndex cell, Met met) {
   if (met != Met::kPassedInside || !hasGone(slice, cell)) fadeAround(slice, cell);
 }
 
-/// The outline of what reaches up, a wall or a person, is met in the cells beside, too.
 void SlicedMap::forgetLow(CellIndex cell, int surely) {
   const auto top = low_.top(cell);
   if (!top || surely <= *top) return;
@@ -326,27 +334,46 @@ bool SlicedMap::hasGone(int slice, CellIndex cell) {
   const auto gone = columns_.passed(cell, pass);
   if (!gone) return false;
   gone_.push_back({combined_.centerOf(cell), slice * kSliceHeight_m});
-  low_.forget(cell);
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) forgetLow({cell.x + dx, cell.y + dy}, gone->surely);
-  const int reach = static_cast<int>(std::lround(kSlowFadeHeight_m / kSliceHeight_m));
-  for (auto near = slices_.lower_bound(gone->bottom - reach); near != slices_.end() && near->first <= gone->top + reach;
-       ++near)
-    if (occupancy::isOccupied(near->second.at(cell))) near->second.set(cell, 0);
-  combine(cell);
+  free(cell, *gone);
   return true;
 }
 
+/// Nothing is left of what stood there, at any height that the hull may touch.
+void SlicedMap::free(CellIndex cell, const Columns::Extent& stood) {
+  const int reach = static_cast<int>(std::lround(kSlowFadeHeight_m / kSliceHeight_m));
+  const int from = std::min(lowest_, stood.bottom - reach), to = std::max(highest_, stood.top + reach);
+  low_.forget(cell);
+  for (auto near = slices_.lower_bound(from); near != slices_.end() && near->first <= to; ++near)
+    if (occupancy::isOccupied(near->second.at(cell))) near->second.set(cell, 0);
+  combine(cell);
+}
+
+/// It is drawn elsewhere within a cell when the map is drawn again.
+void SlicedMap::forget(const Eigen::Vector2d& place_map_m) {
+  const CellIndex middle = combined_.cellAt(place_map_m);
+  for (const CellIndex& cell : {middle, CellIndex{middle.x - 1, middle.y}, CellIndex{middle.x + 1, middle.y},
+                                CellIndex{middle.x, middle.y - 1}, CellIndex{middle.x, middle.y + 1}}) {
+    if (!occupancy::isOccupied(combined_.at(cell))) continue;
+    columns_.forget(cell);
+    free(cell, {lowest_, highest_});
+  }
+}
+
 /// Most things are upright: a free cell is weak evidence that the cells above and below it are free. This removes the
-/// traces of people who have passed.
+/// traces of people who have passed. A trace that was met once, at whatever height the hull may touch, is no more.
 void SlicedMap::fadeAround(int slice, CellIndex cell) {
   const bool slow = drawn_ % kSlowFadeScans == 0;
   const double height_m = slow ? kSlowFadeHeight_m : kFadeHeight_m;
   const int reach = static_cast<int>(std::lround(height_m / kSliceHeight_m));
+  const int from = std::min(slice - reach, slow ? lowest_ : slice),
+            to = std::max(slice + reach, slow ? highest_ : slice);
   bool faded = false;
-  for (auto near = slices_.lower_bound(slice - reach); near != slices_.end() && near->first <= slice + reach; ++near) {
+  for (auto near = slices_.lower_bound(from); near != slices_.end() && near->first <= to; ++near) {
     const Cell old = near->second.at(cell);
     if (near->first == slice || !occupancy::isOccupied(old)) continue;
+    if (std::abs(near->first - slice) > reach && old > config_.hit_steps) continue;
     near->second.set(cell, static_cast<Cell>(std::max(old - kFadeSteps, 0)));
     faded = true;
   }

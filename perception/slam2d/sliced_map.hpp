@@ -72,6 +72,8 @@ class SlicedMap {
   /// What may touch the hull at flight height. A cell is occupied where any of the slices is, and free where at least
   /// one is free and none is occupied.
   common::OccupancyGrid atFlightHeight() { return combined_.snapshot(); }
+  /// What was drawn at the place, to a cell, has gone.
+  void forget(const Eigen::Vector2d& place_map_m);
   /// What has gone since the last call.
   std::vector<GoneColumn> takeGone() { return std::exchange(gone_, {}); }
   /// A copy that shares its tiles.
@@ -88,9 +90,12 @@ class SlicedMap {
   void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, Met met, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
   bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
+  bool isOutline(common::CellIndex cell) const;
+  Columns::Extent metExtent(int slice, common::CellIndex cell) const;
   void pass(int slice, common::CellIndex cell, Met met);
   void fadeAround(int slice, common::CellIndex cell);
   bool hasGone(int slice, common::CellIndex cell);
+  void free(common::CellIndex cell, const Columns::Extent& stood);
   void forgetLow(common::CellIndex cell, int surely);
   int unsureSlices(common::CellIndex cell) const;
   void combine(common::CellIndex cell);

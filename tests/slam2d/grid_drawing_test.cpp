@@ -305,6 +305,39 @@ TEST_F(PersonWhoLeaves, IsNotPassedByBeamsAboveTheHead) {
   EXPECT_TRUE(stands());
 }
 
+/// Who leans, or sways, is drawn in other cells below the level beams than in their plane.
+TEST_F(PersonWhoLeaves, IsGoneWhereOnlyTiltedBeamsMetHim) {
+  for (int sway = 0; sway < 3; ++sway) {
+    watching_.draw(upright(0.0), 1.0);
+    for (const double below_m : {0.2, 0.25}) {
+      DrawnScan leaning = upright(below_m);
+      for (Eigen::Vector3f& p : leaning.hits_level_m)
+        if (p.head<2>().norm() < 2.0F) p.head<2>() *= 1.45F / 1.5F;
+      watching_.draw(leaning, 1.0);
+    }
+  }
+  ASSERT_TRUE(common::occupancy::isOccupied(at(1.45, 0.0)));
+  watching_.draw(over(0.0, 1.0), 2.5);
+  EXPECT_FALSE(common::occupancy::isOccupied(at(1.45, 0.0)));
+  EXPECT_FALSE(stands());
+}
+
+/// A single end, at any height that the hull may touch, is no more than a trace.
+TEST(GridDrawing, ATraceAtTheLowestHeightOfTheHullFades) {
+  const GridDrawingConfig config;
+  SlicedMap map{config};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(1.5, 0.0)); };
+  Watching watching(map);
+  watching.draw(over(config.max_height_below_m - 0.01, 1.0), 0.25);
+  ASSERT_TRUE(common::occupancy::isOccupied(where()));
+  DrawnScan level = around(3.0, 720);  // Of a laser on top of the hull: 34 cm above the trace.
+  level.body_height_m = 1.0;
+  level.laser_height_m = 0.10F;
+  for (Eigen::Vector3f& p : level.hits_level_m) p.z() = 0.10F;
+  watching.draw(level, 20.0);
+  EXPECT_FALSE(common::occupancy::isOccupied(where()));
+}
+
 /// A pole of 2 cm stands in the middle of its cell. The beams of a coarse laser meet it now and then, and pass beside
 /// it otherwise.
 TEST(GridDrawing, AThinPoleStays) {

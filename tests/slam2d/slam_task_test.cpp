@@ -1,6 +1,8 @@
 #include "perception/slam2d/slam_task_data.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +134,36 @@ TEST(SlamGraph, RemovedEdgesCarryNoUncertainty) {
       const SlamEdge& e = graph.edges.at(static_cast<std::size_t>(edge));
       EXPECT_TRUE(e.from == static_cast<int>(key) || e.to == static_cast<int>(key));
     }
+}
+
+/// The scans that saw somebody go are not all kept; the map that is drawn again has nobody there, wherever its key
+/// scans have moved, until somebody comes back.
+TEST(SlamGraph, WhatHasGoneStaysGoneWhenTheMapIsDrawnAgain) {
+  const auto scanOf = [](double range_m, double at_s) {
+    auto scan = std::make_shared<DrawnScan>();
+    scan->stamp = common::Time::fromSeconds(at_s);
+    scan->body_height_m = 1.0;
+    for (double angle = -0.3; angle < 0.3; angle += 0.01)
+      scan->hits_level_m.emplace_back(range_m * std::cos(angle), range_m * std::sin(angle), 0.0);
+    return scan;
+  };
+  SlamGraph graph = line(2);
+  for (int i = 0; i < 8; ++i) graph.keys[0].drawn.push_back({scanOf(1.5, 1.0 + 0.25 * i), {}});
+  const auto occupiedAt = [&](double x_m) {
+    const common::OccupancyGrid grid = drawMap(graph, {}).atFlightHeight();
+    return common::occupancy::isOccupied(grid.at(grid.cellAt(x_m, 0.0)));
+  };
+  ASSERT_TRUE(occupiedAt(1.5));
+  graph.keys[1].T_map_body = {};
+  AttachedScan last{scanOf(3.0, 4.0), {}};
+  for (double angle = -0.35; angle < 0.35; angle += 0.01)
+    last.gone_key_m.emplace_back(1.5 * std::cos(angle), 1.5 * std::sin(angle));
+  graph.keys[1].drawn.push_back(last);
+  EXPECT_FALSE(occupiedAt(1.5));
+  for (KeyScan& key : graph.keys) key.T_map_body.x_m = 0.63;
+  EXPECT_FALSE(occupiedAt(2.13));
+  for (int i = 0; i < 4; ++i) graph.keys[1].drawn.push_back({scanOf(1.5, 5.0 + 0.25 * i), {}});
+  EXPECT_TRUE(occupiedAt(2.13));
 }
 
 }  // namespace
