@@ -49,16 +49,13 @@ double Lookout::weightOf(const LookoutInput& input, int direction) const {
   const double bearing_map_rad = 2.0 * std::numbers::pi * direction / kDirections;
   const double age_s = (input.stamp - seen_[static_cast<std::size_t>(direction)]).seconds();
   const double unknown = kJustSeen + (1.0 - kJustSeen) * std::clamp(age_s / kForgotten_s, 0.0, 1.0);
-  if (input.cost_map == nullptr) return unknown;
-  const CostMap& map = *input.cost_map;
-  const Vector2d along(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
+  if (input.clearance == nullptr) return unknown;
   // As far as nothing stands a person may come.
-  double open_m = hull_radius_m_;
-  while (open_m < kNear_m) {
-    const double free_m = map.obstacleDistance_m(map.cellAt(input.T_map_level.position_m() + open_m * along));
-    if (free_m < map.resolution_m()) break;
-    open_m += std::max(map.resolution_m(), free_m);
-  }
+  const Vector2d here_map_m = input.T_map_level.position_m();
+  const Vector2d along(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
+  const double open_m =
+      hull_radius_m_ + input.clearance->freeFor_m(here_map_m + hull_radius_m_ * along, here_map_m + kNear_m * along,
+                                                  input.clearance->resolution_m(), Against::kObstacles);
   return unknown * std::clamp((open_m - 2.0 * hull_radius_m_) / (kNear_m - 2.0 * hull_radius_m_), 0.0, 1.0);
 }
 
