@@ -57,7 +57,7 @@ struct FlightPath {
   common::FlightMode mode = common::FlightMode::kCareful;
   std::optional<double> goal_yaw_map_rad;
   /// In `map`, only asked while the path is given; null: the vehicle joins the path by the smoothest lines.
-  common::ClearanceAlong clearance_m;
+  common::ClearanceAlong clearance_m = {};
 };
 
 /// The inputs of one tick.

@@ -46,10 +46,7 @@ TEST(Avoidance, StopsBeforeAMappedWallThatTheLaserDoesNotSee) {
   EXPECT_GT(story.pose.x_m - kHull_m, 0.02);
   EXPECT_LT(story.pose.x_m - kHull_m, 0.15);
   EXPECT_EQ(story.retreats, 0);
-  // Along the wall and away from it the vehicle is free to fly.
-  story.pose = {0.28, 4.0, -0.5 * std::numbers::pi};
-  EXPECT_EQ(story.sense({0.0, 0.8}).speed_limit_m_s, Avoidance::Config::blind_speed_m_s) << "past the wall, backwards";
-  story.pose.yaw_rad = std::numbers::pi;
+  story.pose = {0.28, 4.0, std::numbers::pi};
   EXPECT_EQ(story.sense({0.8, 0.0}).speed_limit_m_s, Avoidance::Config::blind_speed_m_s) << "away from it, backwards";
 }
 
