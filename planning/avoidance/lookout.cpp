@@ -50,12 +50,16 @@ double Lookout::weightOf(const LookoutInput& input, int direction) const {
   const double age_s = (input.stamp - seen_[static_cast<std::size_t>(direction)]).seconds();
   const double unknown = kJustSeen + (1.0 - kJustSeen) * std::clamp(age_s / kForgotten_s, 0.0, 1.0);
   if (input.clearance == nullptr) return unknown;
-  // As far as nothing stands a person may come.
-  const Vector2d here_map_m = input.T_map_level.position_m();
+  const Clearance& clearance = *input.clearance;
   const Vector2d along(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
-  const double open_m =
-      hull_radius_m_ + input.clearance->freeFor_m(here_map_m + hull_radius_m_ * along, here_map_m + kNear_m * along,
-                                                  input.clearance->resolution_m(), Against::kObstacles);
+  // As far as nothing stands a person may come.
+  double open_m = hull_radius_m_;
+  while (open_m < kNear_m) {
+    const double free_m =
+        clearance.at_m(Vector2d(input.T_map_level.position_m() + open_m * along), Against::kObstacles);
+    if (free_m < clearance.resolution_m()) break;
+    open_m += std::max(clearance.resolution_m(), free_m);
+  }
   return unknown * std::clamp((open_m - 2.0 * hull_radius_m_) / (kNear_m - 2.0 * hull_radius_m_), 0.0, 1.0);
 }
 
