@@ -1,4 +1,7 @@
 // Laws of the reference: continuous, within its limits, on its path, at its goal, whatever is changed in flight.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
