@@ -69,7 +69,8 @@ void Navigator::react(const Percept& percept, const KeepOutZones& keep_out) {
     const auto& decision = reactive_.update(
         {outcome.scan, outcome.T_map_body, seen.state, (percept.now - outcome.scan.stamp).seconds(), outcome.drift_m,
          seen.people, assisted_ ? assist_.wantedVelocity_map_m_s(seen.state) : executor_.aim().velocity_map_m_s,
-         cost_map.get(), obstaclesOfCamera().pointsNear_level_m(outcome.T_map_body, kNear_m),
+         cost_map ? &cost_map->clearance() : nullptr,
+         obstaclesOfCamera().pointsNear_level_m(outcome.T_map_body, kNear_m),
          keep_out.edgesNear_level_m(outcome.T_map_body, kNear_m)});
     executor_.react(decision, seen.state);
     laser_points_ = pointsOf(outcome);

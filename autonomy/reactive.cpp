@@ -27,7 +27,7 @@ const planning::AvoidanceDecision& Reactive::update(const ReactiveInput& input) 
   seen.velocity_level_m_s = level_from_map * Eigen::Vector2d(input.state.velocity_map_m_s().head<2>());
   seen.wanted_level_m_s = level_from_map * input.wanted_map_m_s;
   seen.T_map_level = input.T_map_body;
-  seen.cost_map = input.cost_map;
+  seen.clearance = input.clearance;
   seen.keep_out_points_level_m = input.keep_out_points_level_m;
   seen.obstacles = input.obstacles;
   decision_ = avoidance_.update(seen);

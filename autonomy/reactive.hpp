@@ -33,7 +33,7 @@ struct ReactiveInput {
   std::span<const common::DynamicObstacle> obstacles;
   /// The velocity of the intent; zero if it holds.
   Eigen::Vector2d wanted_map_m_s = Eigen::Vector2d::Zero();
-  const planning::CostMap* cost_map = nullptr;  ///< Null before the first plan.
+  const planning::Clearance* clearance = nullptr;  ///< Null before the first plan.
   /// Obstacles that only the 3D map has, in the level frame of the body.
   std::vector<Eigen::Vector2f> map3d_points_level_m = {};
   /// Of the edges of keep-out zones, in the level frame of the body.

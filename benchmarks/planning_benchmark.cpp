@@ -254,7 +254,8 @@ void AvoidanceTick(benchmark::State& state) {
   person.moving = true;
   const std::vector people{person};
   for (auto _ : state)
-    benchmark::DoNotOptimize(avoidance.update({{}, points, {0.5, 0}, {0.5, 0}, {5.0, 4.0, 0.0}, &map, people}));
+    benchmark::DoNotOptimize(
+        avoidance.update({{}, points, {0.5, 0}, {0.5, 0}, {5.0, 4.0, 0.0}, &map.clearance(), people}));
 }
 BENCHMARK(AvoidanceTick)->Unit(benchmark::kMicrosecond);
 

@@ -118,7 +118,12 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   }
   std::optional<double> yaw_odom_rad;
   if (path.goal_yaw_map_rad) yaw_odom_rad = common::wrapAngle(*path.goal_yaw_map_rad + T_odom_map.yaw_rad);
-  follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad);
+  common::ClearanceAlong clearance_m;
+  if (path.clearance_m)
+    clearance_m = [&](const Eigen::Vector3d& from_odom_m, const Eigen::Vector3d& to_odom_m) {
+      return path.clearance_m(inFrame(last_state_.T_map_odom, from_odom_m), inFrame(last_state_.T_map_odom, to_odom_m));
+    };
+  follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad, clearance_m);
   return {};
 }
 

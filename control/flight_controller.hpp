@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <tl/expected.hpp>
 
+#include "common/clearance_along.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event_log.hpp"
 #include "common/vehicle.hpp"
@@ -55,6 +56,8 @@ struct FlightPath {
   std::vector<Eigen::Vector3d> points_map_m;  ///< z over the take-off floor. The last one is the goal.
   common::FlightMode mode = common::FlightMode::kCareful;
   std::optional<double> goal_yaw_map_rad;
+  /// In `map`, only asked while the path is given; null: the vehicle joins the path by the smoothest lines.
+  common::ClearanceAlong clearance_m = {};
 };
 
 /// The inputs of one tick.

@@ -7,7 +7,7 @@
 
 #include "common/check.hpp"
 #include "common/config_fields.hpp"
-#include "control/path_shape.hpp"
+#include "control/path_join.hpp"
 
 namespace swiftlet::control {
 
@@ -21,12 +21,7 @@ constexpr double kKink_m_s = 0.12;
 constexpr double kSimplifyTolerance_m = 0.01;
 /// Goals farther than this are faced; nearer ones are flown to sideways.
 constexpr double kTurnDistance_m = 0.6;
-constexpr double kLookAhead_m = 0.5;  ///< The yaw faces the path this far ahead.
-/// Greatest distance of the reference from a new path. Beyond it, an extra line leads the reference to the path.
-constexpr double kOnPath_m = 0.03;
-/// The reference joins a new path within its first stretch of this length.
-constexpr double kJoin_m = 1.5;
-constexpr double kLeastJoin_m = 0.3;     ///< Least distance along the path from abreast of the reference to the join.
+constexpr double kLookAhead_m = 0.5;     ///< The yaw faces the path this far ahead.
 constexpr double kClimbSpeed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
 /// Where the path leads this far off the nose, which the laser does not see, the vehicle turns first, and flies at most
 /// this fast.
@@ -66,59 +61,19 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_
 }
 
 void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
-                           std::optional<double> goal_yaw_odom_rad) {
+                           std::optional<double> goal_yaw_odom_rad, const common::ClearanceAlong& clearance_odom_m) {
   mode_ = mode;
   if (points.empty()) {
     stop();
     return;
   }
-  points = simplified(points, kSimplifyTolerance_m);
-  bool turns = false;
-  points = joined(points, turns);
-  lay(rounded(points, limits().corner_deviation_m, turns), acceleration_share_ * limits().acceleration_m_s2);
+  const JoinStart from{reference_.position_odom_m, reference_.velocity_odom_m_s, limits().acceleration_m_s2,
+                       limits().corner_deviation_m, kKink_m_s};
+  lay(joined(simplified(points, kSimplifyTolerance_m), from, clearance_odom_m),
+      acceleration_share_ * limits().acceleration_m_s2);
   follows_path_ = true;
   carrot_.setSpeed(std::max(0.0, reference_.velocity_odom_m_s.dot(carrot_.line_m().normalized())));
   yaw_.setGoal(goal_yaw_odom_rad, remaining_m() > kTurnDistance_m);
-}
-
-std::vector<Eigen::Vector3d> PathFollower::joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const {
-  const std::vector<double> along = distancesAlong(points);
-  const auto rest = [&](double from_m) {
-    std::vector<Eigen::Vector3d> out{pointOn(points, along, from_m)};
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (along[i] > from_m + 1e-6) out.push_back(points[i]);
-    return out;
-  };
-  const Eigen::Vector3d& here = reference_.position_odom_m;
-  const Eigen::Vector3d& velocity = reference_.velocity_odom_m_s;
-  const auto [near_m, off_m] = nearestOn(points, along, here, kJoin_m);
-
-  std::vector<Eigen::Vector3d> out = rest(near_m);
-  // Within reach of the reference filter: the carrot starts on the path itself.
-  const Eigen::Vector3d direction =
-      out.size() > 1 ? Eigen::Vector3d((out[1] - out[0]).normalized()) : Eigen::Vector3d::Zero();
-  const Eigen::Vector3d across = velocity - std::max(0.0, velocity.dot(direction)) * direction;
-  if (off_m <= kOnPath_m && across.norm() <= 2.0 * kKink_m_s) return out;
-
-  if (velocity.norm() <= 2.0 * kKink_m_s) {  // Slow: fly straight to a point as far ahead as the distance off the path.
-    out = rest(std::min(near_m + off_m, along.back()));
-    out.insert(out.begin(), here);
-    return out;
-  }
-  // Fast in another direction: continue along the velocity for as long as turning (or stopping) takes, then join the
-  // path.
-  const double speed = velocity.norm();
-  const Eigen::Vector3d heading = velocity / speed;
-  const Eigen::Vector3d target = pointOn(points, along, std::min(near_m + std::max(off_m, kLeastJoin_m), along.back()));
-  const double cosine = std::clamp(heading.dot((target - here).normalized()), -1.0, 1.0);
-  const double stop_m = 0.5 * speed * speed / limits().acceleration_m_s2;
-  const double turn_m = 2.0 * stop_m * std::sqrt((1.0 - cosine) / std::max(1e-6, 1.0 + cosine));
-  const Eigen::Vector3d corner = here + std::min(stop_m, turn_m) * heading;
-  const auto [corner_m, corner_off_m] = nearestOn(points, along, corner, kJoin_m);
-  out = rest(std::min(corner_m + std::max(corner_off_m, std::min(stop_m, turn_m)), along.back()));
-  out.insert(out.begin(), {here, corner});
-  turns = true;
-  return out;
 }
 
 void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2,

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "common/clearance_along.hpp"
 #include "common/config_fwd.hpp"
 #include "common/flight_mode.hpp"
 #include "common/geometry.hpp"
@@ -48,8 +49,11 @@ class PathFollower {
 
   /// Replaces the path. The points are in odom, the last one is the goal; an empty path stops. If the reference is off
   /// the first line, it joins the nearest point of the first lines. Near the goal it turns to `goal_yaw_odom_rad`.
+  /// Where the smooth lines onto the path come nearer to something than the path that they leave out, by
+  /// `clearance_odom_m`, the reference brakes first and takes the shortest ones.
   void setPath(std::vector<Eigen::Vector3d> points_odom_m, common::FlightMode mode,
-               std::optional<double> goal_yaw_odom_rad = std::nullopt);
+               std::optional<double> goal_yaw_odom_rad = std::nullopt,
+               const common::ClearanceAlong& clearance_odom_m = {});
   /// Leaves the path and flies at that velocity and yaw until the next command. The velocity changes along a straight
   /// line by `acceleration_m_s2`, so it may reverse at once.
   void setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2, double yaw_odom_rad);
@@ -90,9 +94,6 @@ class PathFollower {
   double climbSpeed_m_s() const;
   /// The carrot begins at the first of the points, at rest.
   void lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2);
-  /// The path, joined to the reference's present position and velocity. `turns` is set if its first corner is flown at
-  /// speed.
-  std::vector<Eigen::Vector3d> joined(const std::vector<Eigen::Vector3d>& points, bool& turns) const;
   /// The least of the limits of the mode, of the reactive layer, of the climb and of the view.
   double allowedSpeed_m_s() const;
   void pullReference(const Carrot& carrot, double dt_s);

@@ -61,6 +61,7 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   flown.points_map_m = liftedPoints(path);
   flown.mode = mode_;
   flown.goal_yaw_map_rad = goal_yaw_map_rad_;
+  flown.clearance_m = clearanceAlong(path);
   (void)controller_.follow(flown);
   pace_m_s_ = std::numeric_limits<double>::infinity();
 }
@@ -92,6 +93,20 @@ std::vector<Eigen::Vector3d> PathFlight::liftedPoints(const planning::Path& path
     if (heightOf(after) != heightOf(before)) add(i, heightOf(after));
   }
   return lifted;
+}
+
+/// Enough is what a flown path keeps and a gap leaves: the hull with half of its clearance.
+common::ClearanceAlong PathFlight::clearanceAlong(const planning::Path& path) const {
+  const auto space = desk_.space();
+  if (path.isInSpace() && space)
+    return [space](const Eigen::Vector3d& from_map_m, const Eigen::Vector3d& to_map_m) {
+      const planning::HullSpace& hull = space->hull;
+      return std::min(hull.clearance.along_m(hull.middleOf(from_map_m), hull.middleOf(to_map_m)), hull.radius_m);
+    };
+  return [costs = desk_.costMap()](const Eigen::Vector3d& from_map_m, const Eigen::Vector3d& to_map_m) {
+    const planning::Footprint& hull = costs->footprint();
+    return std::min(costs->clearance().along_m(from_map_m, to_map_m), hull.hull_radius_m + 0.5 * hull.clearance_m);
+  };
 }
 
 void PathFlight::setPace(double speed_m_s) {

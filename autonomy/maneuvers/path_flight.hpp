@@ -57,6 +57,7 @@ class PathFlight {
   static constexpr double kArrival_s = 0.25;
   planning::PlanMaps mapsOf(const planning::CostMap& costs) const;
   std::vector<Eigen::Vector3d> liftedPoints(const planning::Path& path) const;
+  common::ClearanceAlong clearanceAlong(const planning::Path& path) const;
   double endHeight_m() const;
 
   control::FlightController& controller_;

@@ -65,9 +65,8 @@ bool sees(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, const
   for (const Eigen::Vector2d& end_map_m :
        {to_map_m, Eigen::Vector2d(to_map_m + aside), Eigen::Vector2d(to_map_m - aside)}) {
     const Eigen::Vector2d line = end_map_m - from_map_m;
-    const double length_m = line.norm(), step_m = 0.5 * map.resolution_m();
-    for (double at_m = 0.0; at_m < length_m - kOutline_m; at_m += step_m)
-      if (map.states().at(map.cellAt(from_map_m + line * at_m / length_m)) != planning::CellState::kFree) return false;
+    const double before_m = line.norm() - kOutline_m;
+    if (before_m > 0.0 && !map.clearance().isOpen(from_map_m, from_map_m + before_m * line.normalized())) return false;
   }
   return true;
 }
@@ -429,7 +428,7 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     if (seen_map_m && !sees(map_, map_.centerOf(cell), *seen_map_m)) continue;
     const double away_m = seen_map_m ? std::min((map_.centerOf(cell) - *seen_map_m).norm(), kLooksFrom_m)
                                      : std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
-    const double score = away_m + kPerMetreOfWidth * map_.obstacleDistance_m(cell);
+    const double score = away_m + kPerMetreOfWidth * map_.clearance().at_m(cell, planning::Against::kObstacles);
     if (score > best.first) best = {score, i};
     if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }

@@ -36,6 +36,8 @@ constexpr double kWorthSlowing = 0.02;
 constexpr double kClosingSpeed_m_s = 0.15;
 /// A return this near to something mapped or unknown is not unmapped.
 constexpr double kMappedWithin_m = 0.15;
+/// What is mapped farther away does not limit a speed of at most AvoidanceConfig::blind_speed_m_s.
+constexpr double kBlindReach_m = 1.0;
 /// A retreat ends this long after the danger.
 constexpr double kCalm_s = 0.6;
 /// All of the time for which courses are predicted.
@@ -98,7 +100,7 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
   double intended_m_s = 0.0;
   Point ahead = Point::Zero();
   if (course.norm() > kStill_m_s) {
-    decision.speed_limit_m_s = speedLimit(course.normalized(), points, latency_s + config_.lag_s);
+    decision.speed_limit_m_s = speedLimit(input, course.normalized(), points, latency_s + config_.lag_s);
     intended_m_s = std::min(course.norm(), decision.speed_limit_m_s);
     ahead = course.normalized();
   }
@@ -147,9 +149,9 @@ AvoidanceDecision Avoidance::update(const AvoidanceInput& input) {
 }
 
 bool Avoidance::isMapped(const AvoidanceInput& input, const Point& point_level_m) const {
-  const common::CellIndex cell = input.cost_map->cellAt(input.T_map_level * point_level_m);
-  return input.cost_map->states().at(cell) != CellState::kFree ||
-         input.cost_map->obstacleDistance_m(cell) <= kMappedWithin_m;
+  const Point place_map_m = input.T_map_level * point_level_m;
+  return input.clearance->at_m(place_map_m, Against::kObstacles) <= kMappedWithin_m ||
+         input.clearance->at_m(place_map_m, Against::kUnseen) <= 0.0;
 }
 
 std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const {
@@ -171,7 +173,7 @@ std::vector<Threat> Avoidance::threats(const AvoidanceInput& input, const std::v
           fmt::format("something unmapped {:.2f} m off the hull at {}", gap_m, bearingInWords(threat.center_m));
     result.push_back(threat);
   }
-  if (input.cost_map == nullptr) return result;
+  if (input.clearance == nullptr) return result;
   const auto followed_count = static_cast<std::ptrdiff_t>(result.size());
   for (const Bin& bin : bins) {
     if (!std::isfinite(bin.range_m)) continue;
@@ -203,13 +205,30 @@ bool Avoidance::cannotStopBefore(const Point& point_level_m, const Point& veloci
   return gap_m < kInfinity && speed_m_s > stoppingSpeed_m_s(gap_m, config_.deceleration_m_s2, 0.0);
 }
 
-double Avoidance::speedLimit(const Point& direction, const Points& points, double delay_s) const {
+double Avoidance::speedLimit(const AvoidanceInput& input, const Point& direction, const Points& points,
+                             double delay_s) const {
   double gap_m = kInfinity;
   for (const Point& p : points) gap_m = std::min(gap_m, gapAlong(direction, p, hull_radius_m_ + config_.margin_m));
   // Outside the field of view only mapped obstacles are known, but no people.
-  const double most_m_s = isSeen(direction) ? config_.max_speed_m_s : config_.blind_speed_m_s;
+  const bool seen = isSeen(direction);
+  if (!seen) gap_m = std::min(gap_m, mappedGap_m(input, direction));
+  const double most_m_s = seen ? config_.max_speed_m_s : config_.blind_speed_m_s;
   return gap_m < kInfinity ? std::min(most_m_s, stoppingSpeed_m_s(gap_m, config_.deceleration_m_s2, delay_s))
                            : most_m_s;
+}
+
+/// How far the hull may move before it is nearer than the margin to something mapped; infinity if that is far. Where it
+/// is nearer already, it may move past, for which a wall is straight within a cell, and away. A map in which the place
+/// of the vehicle is not known says nothing.
+double Avoidance::mappedGap_m(const AvoidanceInput& input, const Point& direction) const {
+  if (input.clearance == nullptr || input.position_sigma_m > kMappedWithin_m) return kInfinity;
+  const Point here_map_m = input.T_map_level.position_m();
+  const Point there_map_m = input.T_map_level * Point(kBlindReach_m * direction);
+  const double here_m = input.clearance->at_m(here_map_m, Against::kObstacles);
+  const double wanted_m = hull_radius_m_ + config_.margin_m;
+  const double least_m = here_m < wanted_m ? here_m - input.clearance->resolution_m() : wanted_m;
+  const double free_m = input.clearance->freeFor_m(here_map_m, there_map_m, least_m, Against::kObstacles);
+  return free_m < kBlindReach_m ? free_m : kInfinity;
 }
 
 bool Avoidance::isSeen(const Point& direction) const {
@@ -274,7 +293,8 @@ void Avoidance::look(const AvoidanceInput& input, const std::vector<Threat>& thr
   for (const Threat& threat : threats)
     if (threat.dangerous) people.push_back({threat.center_m, threat.velocity_m_s, threat.radius_m, 0.0});
   const Point& course_level_m_s = retreating_ ? last_retreat_level_ : input.wanted_level_m_s;
-  const double turn_rad = lookout_.turn_rad({input.stamp, input.T_map_level, input.cost_map, people, course_level_m_s});
+  const double turn_rad =
+      lookout_.turn_rad({input.stamp, input.T_map_level, input.clearance, people, course_level_m_s});
   const bool about = people_seen_ && (input.stamp - *people_seen_).seconds() < kAbout_s;
   if (about || retreating_) decision.turn_rad = turn_rad;
 }
@@ -290,8 +310,8 @@ RetreatChoice Avoidance::retreat(const AvoidanceInput& input, const Points& poin
     if (std::ranges::none_of(
             people, [&](const NearPerson& one) { return (one.place_m - p).norm() <= one.radius_m + kSameBody_m; }))
       standing.push_back(p);
-  const RetreatInput retreat{input.velocity_level_m_s, standing,       threats,   last_retreat_level_,
-                             input.T_map_level,        input.cost_map, latency_s, &risk};
+  const RetreatInput retreat{input.velocity_level_m_s, standing,        threats,   last_retreat_level_,
+                             input.T_map_level,        input.clearance, latency_s, &risk};
   switch (config_.retreat_rule) {
     case RetreatRule::kOpposite:
       return {oppositeVelocity(config_, hull_radius_m_, retreat), 0.0};

@@ -16,7 +16,7 @@
 #include "common/world/avoidance_status.hpp"
 #include "planning/avoidance/avoidance_config.hpp"
 #include "planning/avoidance/lookout.hpp"
-#include "planning/costs/cost_map.hpp"
+#include "planning/clearance/clearance.hpp"
 
 namespace swiftlet::planning {
 
@@ -36,7 +36,7 @@ struct AvoidanceInput {
   /// The velocity that the intent requests; zero requests a stop.
   Eigen::Vector2d wanted_level_m_s = Eigen::Vector2d::Zero();
   common::Pose2 T_map_level;
-  const CostMap* cost_map = nullptr;                   ///< May be null: then only `obstacles` are reasons to retreat.
+  const Clearance* clearance = nullptr;                ///< May be null: then only `obstacles` are reasons to retreat.
   std::span<const common::DynamicObstacle> obstacles;  ///< Objects that the map does not explain, usually people.
   double age_s = 0.0;  ///< Of the scan when it was processed; the vehicle has moved on since.
   /// Standard deviation of the position in the map. Where it exceeds 0.15 m, the map does not show what is near, and
@@ -101,7 +101,9 @@ class Avoidance {
 
   std::vector<Threat> threats(const AvoidanceInput& input, const std::vector<Bin>& bins) const;
   bool cannotStopBefore(const Eigen::Vector2d& point_level_m, const Eigen::Vector2d& velocity_level_m_s) const;
-  double speedLimit(const Eigen::Vector2d& direction, const Points& points, double delay_s) const;
+  double speedLimit(const AvoidanceInput& input, const Eigen::Vector2d& direction, const Points& points,
+                    double delay_s) const;
+  double mappedGap_m(const AvoidanceInput& input, const Eigen::Vector2d& direction) const;
   bool isSeen(const Eigen::Vector2d& direction) const;
   std::vector<NearPerson> people(const AvoidanceInput& input) const;
   std::string whyLeaving(const std::vector<NearPerson>& people) const;

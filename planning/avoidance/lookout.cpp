@@ -49,15 +49,16 @@ double Lookout::weightOf(const LookoutInput& input, int direction) const {
   const double bearing_map_rad = 2.0 * std::numbers::pi * direction / kDirections;
   const double age_s = (input.stamp - seen_[static_cast<std::size_t>(direction)]).seconds();
   const double unknown = kJustSeen + (1.0 - kJustSeen) * std::clamp(age_s / kForgotten_s, 0.0, 1.0);
-  if (input.cost_map == nullptr) return unknown;
-  const CostMap& map = *input.cost_map;
+  if (input.clearance == nullptr) return unknown;
+  const Clearance& clearance = *input.clearance;
   const Vector2d along(std::cos(bearing_map_rad), std::sin(bearing_map_rad));
   // As far as nothing stands a person may come.
   double open_m = hull_radius_m_;
   while (open_m < kNear_m) {
-    const double free_m = map.obstacleDistance_m(map.cellAt(input.T_map_level.position_m() + open_m * along));
-    if (free_m < map.resolution_m()) break;
-    open_m += std::max(map.resolution_m(), free_m);
+    const double free_m =
+        clearance.at_m(Vector2d(input.T_map_level.position_m() + open_m * along), Against::kObstacles);
+    if (free_m < clearance.resolution_m()) break;
+    open_m += std::max(clearance.resolution_m(), free_m);
   }
   return unknown * std::clamp((open_m - 2.0 * hull_radius_m_) / (kNear_m - 2.0 * hull_radius_m_), 0.0, 1.0);
 }

@@ -11,7 +11,7 @@
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "planning/avoidance/contact_risk.hpp"
-#include "planning/costs/cost_map.hpp"
+#include "planning/clearance/clearance.hpp"
 
 namespace swiftlet::planning {
 
@@ -19,7 +19,7 @@ namespace swiftlet::planning {
 struct LookoutInput {
   common::Time stamp;
   common::Pose2 T_map_level;
-  const CostMap* cost_map;             ///< May be null: then everything is open.
+  const Clearance* clearance;          ///< May be null: then everything is open.
   std::span<const NearPerson> people;  ///< In the level frame.
   Eigen::Vector2d course_level_m_s;    ///< Where it flies to; zero if it stands.
 };

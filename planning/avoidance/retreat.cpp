@@ -147,9 +147,10 @@ class Retreat {
   }
 
   double toMapped_m(const Point& place) const {
-    if (input_.cost_map == nullptr) return kUnreached;
-    const common::CellIndex cell = input_.cost_map->cellAt(input_.T_map_level * place);
-    return input_.cost_map->states().at(cell) == CellState::kUnknown ? 0.0 : input_.cost_map->obstacleDistance_m(cell);
+    if (input_.clearance == nullptr) return kUnreached;
+    const Point place_map_m = input_.T_map_level * place;
+    const bool seen = input_.clearance->at_m(place_map_m, Against::kUnseen) > 0.0;
+    return seen ? input_.clearance->at_m(place_map_m, Against::kObstacles) : 0.0;
   }
 
   const AvoidanceConfig& config_;

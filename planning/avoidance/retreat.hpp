@@ -12,7 +12,7 @@
 #include "common/geometry.hpp"
 #include "planning/avoidance/avoidance_config.hpp"
 #include "planning/avoidance/contact_risk.hpp"
-#include "planning/costs/cost_map.hpp"
+#include "planning/clearance/clearance.hpp"
 
 namespace swiftlet::planning {
 
@@ -37,7 +37,7 @@ struct RetreatInput {
   std::span<const Threat> threats;
   Eigen::Vector2d last_level_m_s;  ///< The result at the previous scan; zero at first.
   common::Pose2 T_map_level;
-  const CostMap* cost_map;              ///< The obstacles that the laser does not see; may be null.
+  const Clearance* clearance;           ///< From the obstacles that the laser does not see; may be null.
   double latency_s;                     ///< From the scan to the moment when a command acts.
   const ContactRisk* people = nullptr;  ///< Null: nobody walks.
 };

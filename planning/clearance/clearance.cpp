@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/check.hpp"
 
@@ -12,8 +13,8 @@ using common::CellIndex;
 using common::VoxelIndex;
 using Eigen::Vector3d;
 
-int reachOf(double resolution_m) {
-  return std::clamp(static_cast<int>(std::ceil(Clearance::kReach_m / resolution_m)), 1, DistanceField::kMostReach);
+int cellsOf(double reach_m, double resolution_m) {
+  return std::clamp(static_cast<int>(std::ceil(reach_m / resolution_m)), 1, DistanceField::kMostReach);
 }
 
 /// Of the voxels that an upright hull meets whose middle is the centre of one.
@@ -23,9 +24,9 @@ std::optional<int> halfHeightOf(std::optional<double> hull_height_m, double voxe
 }
 
 /// People and zones over a grid, as cells whose centres are in one of them.
-class Layers {
+class Barred {
  public:
-  Layers(const common::OccupancyGrid& grid, std::span<const common::Disc> discs,
+  Barred(const common::OccupancyGrid& grid, std::span<const common::Disc> discs,
          std::span<const common::Polygon> keep_out)
       : grid_(grid), discs_(discs), keep_out_(keep_out) {
     for (const common::Disc& disc : discs) {
@@ -72,25 +73,29 @@ CellBox moved(const CellBox& box, const VoxelIndex& by) {
 
 }  // namespace
 
-Clearance::Clearance(double resolution_m, bool plane, std::optional<double> hull_height_m)
+Clearance::Clearance(double resolution_m, bool plane, const Reach& reach, std::optional<double> hull_height_m)
     : resolution_m_(resolution_m),
       cells_per_m_(1.0 / resolution_m),
       plane_(plane),
-      reach_cells_(reachOf(resolution_m)),
       half_height_cells_(halfHeightOf(hull_height_m, resolution_m)),
       states_(resolution_m),
       voxels_(resolution_m) {
-  for (int squared = 0; squared <= (reach_cells_ + 1) * (reach_cells_ + 1); ++squared)
-    distances_m_.push_back(std::min(std::sqrt(static_cast<double>(squared)), static_cast<double>(reach_cells_)) *
-                           resolution_m);
+  int greatest = 0;
+  for (Layer& layer : layers_) {
+    layer.reach_cells = cellsOf(&layer == &layers_[1] ? reach.unseen_m : reach.things_m, resolution_m);
+    layer.reach_m = layer.reach_cells * resolution_m;
+    greatest = std::max(greatest, layer.reach_cells + 1);
+  }
+  for (int squared = 0; squared <= greatest * greatest; ++squared)
+    distances_m_.push_back(std::sqrt(static_cast<double>(squared)) * resolution_m);
 }
 
-void Clearance::update(const common::OccupancyGrid& grid, std::span<const common::Disc> discs,
-                       std::span<const common::Polygon> keep_out) {
+std::vector<CellBox> Clearance::update(const common::OccupancyGrid& grid, std::span<const common::Disc> discs,
+                                       std::span<const common::Polygon> keep_out) {
   SWIFTLET_CHECK(plane_ && grid.resolution_m() == resolution_m_, grid.resolution_m(), resolution_m_);
   const std::vector<common::CellRect> changes = states_.update(grid);
   const common::CellRect rect = states_.rect();
-  if (rect.empty()) return;
+  if (rect.empty()) return {};
   const VoxelIndex begin{rect.begin.x, 0, rect.begin.y}, end{rect.end.x, 1, rect.end.y};
   std::vector<CellBox> boxes;
   if (begin != begin_ || end != end_) {
@@ -99,15 +104,30 @@ void Clearance::update(const common::OccupancyGrid& grid, std::span<const common
   }
   for (const common::CellRect& change : changes)
     boxes.push_back({{change.begin.x, 0, change.begin.y}, {change.end.x, 1, change.end.y}});
-  const Layers layers(grid, discs, keep_out);
-  layered_.insert(layered_.end(), layers.boxes().begin(), layers.boxes().end());
-  for (const CellBox& box : layered_) boxes.push_back(moved(box, begin_));
-  field_.update(boxes, [&](VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> occupied) {
-    const CellState* states = states_.all().data() + static_cast<std::ptrdiff_t>(first.z) * rect.width() + first.x;
-    for (std::size_t i = 0; i < occupied.size(); ++i) occupied[i] = states[i] != CellState::kFree;
-    layers.mark({begin_.x + first.x, begin_.z + first.z}, occupied);
+  std::vector<CellBox> changed;
+  for (const auto& [which, layer] : {std::pair(CellState::kOccupied, 0), std::pair(CellState::kUnknown, 1)}) {
+    const auto read = [&, which = which](VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> is) {
+      const auto row = states_.all().begin() + static_cast<std::ptrdiff_t>(first.z) * rect.width() + first.x;
+      std::transform(row, row + is.size(), is.begin(), [which](CellState state) { return state == which; });
+    };
+    const std::vector<CellBox> of_layer = layers_[static_cast<std::size_t>(layer)].field.update(boxes, read);
+    changed.insert(changed.end(), of_layer.begin(), of_layer.end());
+  }
+  updateBarred(grid, discs, keep_out);
+  return changed;
+}
+
+/// Where people and zones were is read again, and where they are.
+void Clearance::updateBarred(const common::OccupancyGrid& grid, std::span<const common::Disc> discs,
+                             std::span<const common::Polygon> keep_out) {
+  const Barred barred(grid, discs, keep_out);
+  barred_.insert(barred_.end(), barred.boxes().begin(), barred.boxes().end());
+  for (CellBox& box : barred_) box = moved(box, begin_);
+  layers_[2].field.update(barred_, [&](VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> occupied) {
+    std::fill(occupied.begin(), occupied.end(), std::uint8_t{0});
+    barred.mark({begin_.x + first.x, begin_.z + first.z}, occupied);
   });
-  layered_ = layers.boxes();
+  barred_ = barred.boxes();
 }
 
 void Clearance::update(const common::VoxelMap& map) {
@@ -136,7 +156,7 @@ void Clearance::update(const common::VoxelMap& map) {
     for (const VoxelIndex& block : voxels_.blocks())
       if (map.block(block) == nullptr) add(block);
   }
-  field_.update(boxes, [&](VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> occupied) {
+  layers_[0].field.update(boxes, [&](VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> occupied) {
     const VoxelIndex from{begin_.x + first.x, begin_.y + first.y, begin_.z + first.z};
     for (int x = 0; x < DistanceField::kRow; x += kSide) {
       const common::VoxelBlock* block = map.block(common::VoxelMap::blockOf({from.x + x, from.y, from.z}));
@@ -156,24 +176,38 @@ void Clearance::update(const common::VoxelMap& map) {
 void Clearance::reshape(const VoxelIndex& begin, const VoxelIndex& end) {
   begin_ = begin;
   end_ = end;
-  layered_.clear();
-  field_ = DistanceField({end.x - begin.x, end.y - begin.y, end.z - begin.z}, reach_cells_, half_height_cells_);
+  barred_.clear();
+  for (Layer& layer : layers_)
+    if (plane_ || &layer == &layers_[0])
+      layer.field =
+          DistanceField({end.x - begin.x, end.y - begin.y, end.z - begin.z}, layer.reach_cells, half_height_cells_);
 }
 
-double Clearance::along_m(const Vector3d& from_map_m, const Vector3d& to_map_m, double enough_m) const {
+double Clearance::reach_m(Against against) const {
+  if (!plane_) return layers_[0].reach_m;
+  double least_m = kFar_m;
+  for (const Against layer : {Against::kObstacles, Against::kUnseen, Against::kBarred})
+    if (counts(layer, against)) least_m = std::min(least_m, layerOf(layer).reach_m);
+  return least_m;
+}
+
+Clearance::NearestPlace Clearance::nearestOn(const Vector3d& from_map_m, const Vector3d& to_map_m, double enough_m,
+                                             Against against) const {
   const Vector3d step_m = to_map_m - from_map_m;
   const double length_m = step_m.norm(), half_cell_m = 0.5 * resolution_m_;
   // A place that is d nearer to a thing is at least d farther along. The centres of its cell and of the next are each
   // half a diagonal off. A hull's clearance says nothing of other heights.
   const double off_m = std::sqrt(plane_ || half_height_cells_ ? 2.0 : 3.0) * resolution_m_;
-  double least_m = at_m(to_map_m);  // Most lines that are refused end in what is in the way.
-  if (least_m < enough_m) return least_m;
+  NearestPlace nearest{at_m(to_map_m, against), length_m};
+  double before_m = 0.0;
   for (double at = 0.0;;) {
     const Vector3d place_m = length_m > 0.0 ? Vector3d(from_map_m + at / length_m * step_m) : from_map_m;
-    const double here_m = at_m(place_m);
-    least_m = std::min(least_m, here_m);
-    if (least_m < enough_m || !(at < length_m)) return least_m;
-    double skip_m = here_m - (enough_m > 0.0 ? enough_m : least_m) - off_m;
+    const double here_m = at_m(place_m, against);
+    nearest.clearance_m = std::min(nearest.clearance_m, here_m);
+    if (here_m < enough_m) return {nearest.clearance_m, before_m};
+    if (!(at < length_m)) return nearest;
+    before_m = at;
+    double skip_m = here_m - (enough_m > 0.0 ? enough_m : nearest.clearance_m) - off_m;
     if (half_height_cells_ && !plane_ && step_m.z() != 0.0) {
       const double next_z_m =
           (std::floor(place_m.z() / resolution_m_) + (step_m.z() > 0.0 ? 1.0 : 0.0)) * resolution_m_;

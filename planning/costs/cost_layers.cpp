@@ -17,7 +17,7 @@ void CostMap::applyLayers(const CostLayers& layers) {
   kept_out_.assign(layers.keep_out.empty() ? 0 : cost_.size(), 0);
   for (const common::Polygon& zone : layers.keep_out) applyKeepOut(zone);
   steps_ = surfaceSteps(
-      states_, config_.height_step_weight > 0.0 ? layers.levels : nullptr,
+      states(), config_.height_step_weight > 0.0 ? layers.levels : nullptr,
       static_cast<std::int32_t>(std::lround(config_.height_step_weight * 0.01 / resolution_m() * kStraightMin)));
 }
 
@@ -45,7 +45,8 @@ void CostMap::applyFlown(const Eigen::Vector2d& from_map_m, const Eigen::Vector2
     for (int x = std::max(low.x, rect().begin.x); x <= std::min(high.x, rect().end.x - 1); ++x) {
       if (common::segmentDistance(centerOf({x, y}), from_map_m, to_map_m) > kWithin_m) continue;
       Cost& cost = cost_[static_cast<std::size_t>(indexOf({x, y}))];
-      if (cost == kLethal && states_.at({x, y}) == CellState::kFree && obstacleDistance_m({x, y}) >= least_m)
+      if (cost == kLethal && states().at({x, y}) == CellState::kFree &&
+          clearance_.at_m(common::CellIndex{x, y}, Against::kObstacles) >= least_m)
         cost = costOfMargin(0.0);
     }
   }

@@ -14,12 +14,6 @@ using common::OccupancyGrid;
 
 /// Distance beyond the clearance at which an obstacle no longer raises the cost.
 constexpr double kComfortDistance_m = 0.60;
-/// Greatest reach, which bounds the memory of very fine maps' tables.
-constexpr int kMaxReachCells = 63;
-
-int reachOf(double distance_m, double resolution_m) {
-  return std::clamp(static_cast<int>(std::ceil(distance_m / resolution_m)), 1, kMaxReachCells);
-}
 
 }  // namespace
 
@@ -28,42 +22,32 @@ void CostMap::Config::describe(common::config::Fields& fields) {
          "A metre at the clearance costs (1 + this) times as much as a metre in the open.");
 }
 
-CostMap::CostMap(const Config& config, double resolution_m) : config_(config), states_(resolution_m) {}
-
-double CostMap::obstacleDistance_m(CellIndex c) const {
-  if (!rect().contains(c)) return reach_m();
-  const int squared = occupied_.squared({c.x - rect().begin.x, 0, c.y - rect().begin.y});
-  return std::min(std::sqrt(squared) * resolution_m(), reach_m());
-}
+CostMap::CostMap(const Config& config, double resolution_m)
+    : config_(config), clearance_(Clearance::ofPlane(resolution_m)) {}
 
 void CostMap::update(const OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers) {
   const bool moved =
       footprint.hull_radius_m != footprint_.hull_radius_m || footprint.clearance_m != footprint_.clearance_m;
+  if (moved) {
+    footprint_ = footprint;
+    clearance_ = Clearance::ofPlane(resolution_m(), {footprint.radius_m() + kComfortDistance_m, footprint.radius_m()});
+  }
   const CellRect before = rect();
-  const std::vector<CellRect> changes = states_.update(grid);
-  const bool all = moved || rect() != before;
-  if (all) reshape(footprint);
-  updateDistances(changes, all);
+  const std::vector<CellBox> changes = clearance_.update(grid, layers.discs, layers.keep_out);
+  if (moved || rect() != before) reshape();
+  for (const CellBox& changed : changes) costBox(changed);
   applyLayers(layers);
 }
 
-void CostMap::reshape(const Footprint& footprint) {
-  footprint_ = footprint;
-  reach_cells_ = reachOf(footprint.radius_m() + kComfortDistance_m, resolution_m());
-
-  const std::size_t cells = states_.all().size();
+void CostMap::reshape() {
+  const std::size_t cells = states().all().size();
   static_cost_.assign(cells, kOpenCost);
   cost_.assign(cells, kLethal);
-  if (cells > 0) {
-    const common::VoxelIndex size{rect().width(), 1, rect().height()};
-    occupied_ = DistanceField(size, reach_cells_);
-    unknown_ = DistanceField(size, reachOf(footprint.hull_radius_m, resolution_m()));
-  }
-
-  margin_cost_.resize(static_cast<std::size_t>((reach_cells_ + 1) * (reach_cells_ + 1)) + 1);
+  const auto reach_cells = static_cast<std::size_t>(std::lround(reach_m() / resolution_m()));
+  margin_cost_.resize((reach_cells + 1) * (reach_cells + 1) + 1);
   for (std::size_t squared = 0; squared < margin_cost_.size(); ++squared)
     margin_cost_[squared] =
-        costOfMargin(std::sqrt(static_cast<double>(squared)) * resolution_m() - footprint.radius_m());
+        costOfMargin(std::sqrt(static_cast<double>(squared)) * resolution_m() - footprint_.radius_m());
 }
 
 CostMap::Cost CostMap::costOfMargin(double margin_m) const {
@@ -74,32 +58,24 @@ CostMap::Cost CostMap::costOfMargin(double margin_m) const {
   return static_cast<Cost>(std::lround(kOpenCost * (1.0 + config_.comfort_weight * nearness * nearness)));
 }
 
-void CostMap::updateDistances(const std::vector<CellRect>& changes, bool all) {
-  if (rect().empty()) return;
-  std::vector<CellBox> boxes;
-  if (all) boxes.push_back({{0, 0, 0}, {rect().width(), 1, rect().height()}});
-  for (const CellRect& change : changes)
-    boxes.push_back({{change.begin.x, 0, change.begin.y}, {change.end.x, 1, change.end.y}});
-  for (const CellState which : {CellState::kOccupied, CellState::kUnknown}) {
-    DistanceField& field = which == CellState::kOccupied ? occupied_ : unknown_;
-    const auto read = [&](common::VoxelIndex first, std::span<std::uint8_t, DistanceField::kRow> is) {
-      const auto row = states_.all().begin() + static_cast<std::ptrdiff_t>(first.z) * rect().width() + first.x;
-      std::transform(row, row + is.size(), is.begin(), [which](CellState state) { return state == which; });
-    };
-    for (const CellBox& changed : field.update(boxes, read)) costBox(changed);
-  }
-}
-
 void CostMap::costBox(const CellBox& box) {
   const double unknown_radius = footprint_.hull_radius_m / resolution_m();
   for (int y = box.begin.z; y < box.end.z; ++y) {
     for (int x = box.begin.x; x < box.end.x; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * rect().width() + x;
-      const bool blind =
-          states_.all()[i] == CellState::kUnknown || unknown_.squared({x, 0, y}) < unknown_radius * unknown_radius;
-      static_cost_[i] = blind ? kLethal : margin_cost_[static_cast<std::size_t>(occupied_.squared({x, 0, y}))];
+      const CellIndex cell{rect().begin.x + x, rect().begin.y + y};
+      const auto i = static_cast<std::size_t>(indexOf(cell));
+      const bool blind = states()[static_cast<int>(i)] == CellState::kUnknown ||
+                         clearance_.squaredCells(cell, Against::kUnseen) < unknown_radius * unknown_radius;
+      static_cost_[i] =
+          blind ? kLethal : margin_cost_[static_cast<std::size_t>(clearance_.squaredCells(cell, Against::kObstacles))];
     }
   }
+}
+
+bool isFree(const CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m) {
+  const Eigen::Vector3d from(from_map_m.x(), from_map_m.y(), 0.0), to(to_map_m.x(), to_map_m.y(), 0.0);
+  return map.clearance().isFree(from, to, map.footprint().radius_m(), Against::kThings) &&
+         map.clearance().isFree(from, to, map.footprint().hull_radius_m, Against::kUnseen);
 }
 
 }  // namespace swiftlet::planning

@@ -16,8 +16,7 @@
 #include "common/occupancy_grid.hpp"
 #include "common/place_names.hpp"
 #include "common/polygon.hpp"
-#include "planning/clearance/cell_states.hpp"
-#include "planning/clearance/distance_field.hpp"
+#include "planning/clearance/clearance.hpp"
 #include "planning/costs/surface_steps.hpp"
 
 namespace swiftlet::planning {
@@ -45,8 +44,7 @@ struct CostLayers {
 };
 
 /// A dense copy of the grid's extent plus one tile of margin, in the `map` frame, on the grid's own cells. It is a
-/// value: copy it to give a job a snapshot. Reading is safe from any thread while the object is not updated. Distances
-/// are from cell centre to cell centre and are exact up to the reach of the cost.
+/// value: copy it to give a job a snapshot. Reading is safe from any thread while the object is not updated.
 class CostMap {
  public:
   struct Config {
@@ -68,7 +66,7 @@ class CostMap {
 
   /// Updates the map to the given grid, a snapshot as CellStates::update asks for. Costs are recomputed only around
   /// cells whose state changed since the last call, unless the footprint changed. The result always equals that of a
-  /// fresh map. The reach is radius plus comfort distance, at most 63 cells.
+  /// fresh map.
   void update(const common::OccupancyGrid& grid, const Footprint& footprint, const CostLayers& layers = {});
 
   /// How the texts of a failed plan name places.
@@ -76,19 +74,22 @@ class CostMap {
   const common::PlaceNames& names() const { return names_; }
 
   const Footprint& footprint() const { return footprint_; }
-  const CellStates& states() const { return states_; }
+  /// How far a place is from what the layers have: exact up to the reach of the cost, radius plus comfort distance, and
+  /// from the unknown up to the radius.
+  const Clearance& clearance() const { return clearance_; }
+  const CellStates& states() const { return clearance_.states(); }
   const SurfaceSteps& steps() const { return steps_; }
-  double resolution_m() const { return states_.grid().resolution_m(); }
+  double resolution_m() const { return clearance_.resolution_m(); }
 
   // Cells. Indices into the dense rectangle run row by row; the outermost cells are lethal, so that the eight
   // neighbours of a cell that is not lethal always exist.
-  const common::CellRect& rect() const { return states_.rect(); }
-  int indexOf(common::CellIndex c) const { return states_.indexOf(c); }
+  const common::CellRect& rect() const { return states().rect(); }
+  int indexOf(common::CellIndex c) const { return states().indexOf(c); }
   common::CellIndex cellOf(int index) const {
     return {rect().begin.x + index % rect().width(), rect().begin.y + index / rect().width()};
   }
-  common::CellIndex cellAt(const Eigen::Vector2d& point_map_m) const { return states_.grid().cellAt(point_map_m); }
-  Eigen::Vector2d centerOf(common::CellIndex c) const { return states_.grid().centerOf(c); }
+  common::CellIndex cellAt(const Eigen::Vector2d& point_map_m) const { return states().grid().cellAt(point_map_m); }
+  Eigen::Vector2d centerOf(common::CellIndex c) const { return states().grid().centerOf(c); }
 
   const std::vector<Cost>& costs() const { return cost_; }
   Cost costAt(common::CellIndex c) const {
@@ -102,14 +103,11 @@ class CostMap {
   /// Only a disc of CostLayers makes it lethal.
   bool isLethalByDisc(int index) const { return !by_disc_.empty() && by_disc_[static_cast<std::size_t>(index)] != 0; }
 
-  /// Distance from the centre of the cell to that of the nearest occupied cell of the grid; discs are not counted. At
-  /// most reach_m(), which is also the answer if nothing is near and outside the map.
-  double obstacleDistance_m(common::CellIndex c) const;
-  double reach_m() const { return reach_cells_ * resolution_m(); }
+  /// Of the cost: an obstacle that is farther does not raise it.
+  double reach_m() const { return clearance_.reach_m(Against::kObstacles); }
 
  private:
-  void reshape(const Footprint& footprint);
-  void updateDistances(const std::vector<common::CellRect>& changes, bool all);
+  void reshape();
   void costBox(const CellBox& box);
   void applyLayers(const CostLayers& layers);
   void closeBorder();
@@ -119,13 +117,10 @@ class CostMap {
   Cost costOfMargin(double margin_m) const;
 
   Config config_;
-  CellStates states_;
+  Clearance clearance_;
   Footprint footprint_{-1.0, -1.0};
   common::PlaceNames names_;
-  int reach_cells_ = 0;
-  /// In the plane of x and z, from the first cell of rect() on.
-  DistanceField occupied_, unknown_;
-  std::vector<Cost> margin_cost_;  ///< Cost by occupied distance squared.
+  std::vector<Cost> margin_cost_;  ///< Cost by the distance to an obstacle, squared and in cells.
   std::vector<Cost> static_cost_;  ///< Cost from the grid only.
   std::vector<Cost> cost_;         ///< Cost with the layers.
   SurfaceSteps steps_;
@@ -138,9 +133,12 @@ inline bool isLethalAt(const CostMap& map, const Eigen::Vector2d& point_map_m) {
   return map.costAt(map.cellAt(point_map_m)) == CostMap::kLethal;
 }
 
+/// Whether the hull fits along a straight line, with its clearance from all that stands there.
+bool isFree(const CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& to_map_m);
+
 /// Far enough from obstacles for a vehicle that stops there (Footprint::stopRadius_m).
 inline bool hasRoomToStop(const CostMap& map, common::CellIndex cell) {
-  return map.obstacleDistance_m(cell) >= map.footprint().stopRadius_m();
+  return map.clearance().at_m(cell, Against::kObstacles) >= map.footprint().stopRadius_m();
 }
 
 }  // namespace swiftlet::planning

@@ -129,14 +129,6 @@ std::optional<double> costOf(const SurfaceWindow& surfaces, const Vector2d& plac
   return length_m + (raised ? kUpperCost_m : 0.0) + (unseen ? kUnseenCost_m : 0.0) + (clear ? 0.0 : kAskewCost_m);
 }
 
-/// Whether the vehicle may be anywhere on that straight line, but for its start.
-bool isFree(const CostMap& map, const Vector2d& from_map_m, const Vector2d& to_map_m) {
-  const Vector2d line_m = to_map_m - from_map_m;
-  for (double at_m = map.resolution_m(); at_m < line_m.norm(); at_m += map.resolution_m())
-    if (isLethalAt(map, from_map_m + at_m * line_m.normalized())) return false;
-  return true;
-}
-
 }  // namespace
 
 std::optional<Vector2d> landingPlace(const CostMap& map, const common::LevelMap& levels, const Vector2d& from_map_m,
@@ -194,8 +186,10 @@ std::optional<Vector2d> placeToLookFrom(const CostMap& map, const common::LevelM
   if (extent.toBothSides_m() >= needs.aside_m() || extent.farthest_m.isZero()) return std::nullopt;
   const Vector2d ahead = -extent.farthest_m.normalized();
   for (const double turn_deg : kLooks_deg) {
-    const Vector2d place = from_map_m + reach_m * (Eigen::Rotation2Dd(turn_deg * common::kRadPerDeg) * ahead);
-    if (isFree(map, from_map_m, place)) return place;
+    const Vector2d along = Eigen::Rotation2Dd(turn_deg * common::kRadPerDeg) * ahead;
+    // Where the vehicle is already it may be nearer to an obstacle than a path would go.
+    const Vector2d place = from_map_m + reach_m * along;
+    if (isFree(map, from_map_m + map.resolution_m() * along, place)) return place;
   }
   return std::nullopt;
 }

@@ -18,7 +18,7 @@ constexpr double kLossPerMetre = 0.25;
 
 Vector2d displacementToOpenPlace_m(const CostMap& map, const Vector2d& from_map_m, double reach_m) {
   Vector2d best_m = Vector2d::Zero();
-  const double here_m = map.obstacleDistance_m(map.cellAt(from_map_m));
+  const double here_m = map.clearance().at_m(from_map_m, Against::kObstacles);
   double best_score_m = here_m;
   for (int direction = 0; direction < kDirections; ++direction) {
     const double angle_rad = 2.0 * std::numbers::pi * direction / kDirections;
@@ -26,7 +26,7 @@ Vector2d displacementToOpenPlace_m(const CostMap& map, const Vector2d& from_map_
     double before_m = here_m;
     for (double length_m = map.resolution_m(); length_m <= reach_m; length_m += map.resolution_m()) {
       const common::CellIndex cell = map.cellAt(from_map_m + length_m * along);
-      const double distance_m = map.obstacleDistance_m(cell);
+      const double distance_m = map.clearance().at_m(cell, Against::kObstacles);
       // Out of a place that is too near to a wall only away from it.
       if (map.costAt(cell) == CostMap::kLethal && (distance_m <= before_m || map.states().at(cell) != CellState::kFree))
         break;

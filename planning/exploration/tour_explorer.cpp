@@ -114,10 +114,7 @@ class TourChoice {
     if (length_m > kCover_m) return false;
     if (std::abs(common::wrapAngle(std::atan2(line.y(), line.x()) - from.view.yaw_map_rad)) > half_field_of_view_rad_)
       return false;
-    const int steps = static_cast<int>(length_m / (0.5 * map_.resolution_m()));
-    for (int i = 1; i < steps; ++i)
-      if (map_.states().at(map_.cellAt(begin_m + line * i / steps)) != CellState::kFree) return false;
-    return true;
+    return map_.clearance().isOpen(begin_m, end_m);
   }
 
   TourCosts costsOfTour() {

@@ -93,17 +93,18 @@ std::optional<CellPath> escapeFrom(const CostMap& map, CellIndex start, double r
   const double least_m = lethal ? 0.0 : map.footprint().hull_radius_m + 0.5 * map.footprint().clearance_m;
   // A keep-out zone over the vehicle may be as large as the room; farther away only its cells count as open.
   const bool kept_out = map.isKeptOut(map.indexOf(start));
+  const auto obstacle_m = [&](CellIndex cell) { return map.clearance().at_m(cell, Against::kObstacles); };
   const auto price = [&](CellIndex, CellIndex cell) -> std::optional<double> {
     const double from_start_m = std::hypot(cell.x - start.x, cell.y - start.y) * map.resolution_m();
     if (!map.rect().contains(cell)) return std::nullopt;
     if (from_start_m > reach_m) {
-      if (!kept_out || map.obstacleDistance_m(cell) < map.footprint().radius_m()) return std::nullopt;
+      if (!kept_out || obstacle_m(cell) < map.footprint().radius_m()) return std::nullopt;
       return map.states().at(cell) == CellState::kFree ? std::optional(1.0) : std::nullopt;
     }
     switch (map.states().at(cell)) {
       case CellState::kFree:
-        if (map.obstacleDistance_m(cell) < least_m) return std::nullopt;
-        return 1.0 + kNearness * std::max(0.0, 1.0 - map.obstacleDistance_m(cell) / map.footprint().radius_m());
+        if (obstacle_m(cell) < least_m) return std::nullopt;
+        return 1.0 + kNearness * std::max(0.0, 1.0 - obstacle_m(cell) / map.footprint().radius_m());
       case CellState::kUnknown:
         if (!lethal) return std::nullopt;
         return kUnknown;

@@ -22,7 +22,7 @@ bool mayBeAt(const CostMap& map, common::CellIndex cell, double clearance_m) {
   const Footprint& own = map.footprint();
   if (clearance_m == own.clearance_m) return !lethal;
   const double radius_m = std::min(own.hull_radius_m + clearance_m, map.reach_m());
-  const bool near = map.obstacleDistance_m(cell) < radius_m;
+  const bool near = map.clearance().at_m(cell, Against::kObstacles) < radius_m;
   const bool larger = clearance_m > own.clearance_m;
   return !near && (!lethal || (!larger && map.states().at(cell) == CellState::kFree));
 }

@@ -35,7 +35,7 @@ struct ReactiveStory : testing::Test {
   }
   const planning::AvoidanceDecision& scanAt(double s) {
     scan.stamp = Time::fromSeconds(s);
-    return reactive.update({scan, T_map_body, state, age_s, 0.0, obstacles, wanted_map_m_s, &cost_map});
+    return reactive.update({scan, T_map_body, state, age_s, 0.0, obstacles, wanted_map_m_s, &cost_map.clearance()});
   }
 
   common::OccupancyGrid grid = planning::test::room(200, 160);

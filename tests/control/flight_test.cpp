@@ -51,6 +51,41 @@ TEST(Flight, FollowsAPathWithCornersToItsGoal) {
               flight.greatest_tilt_rad * 57.3, flight.model.now.seconds());
 }
 
+/// The map is turned against the odometry. A path turns away at a right angle beside something that stands in the cut.
+TEST(Flight, AsksInTheMapWhetherTheCutOfACornerIsFree) {
+  const auto nearest_m = [](bool asks) {
+    Flight flight;
+    flight.T_map_odom = {2.0, -1.0, 2.0};
+    flight.hover();
+    const auto inMap = [&](double x_m, double y_m) {
+      const Eigen::Vector2d place_m = flight.T_map_odom * Eigen::Vector2d(x_m, y_m);
+      return Eigen::Vector3d(place_m.x(), place_m.y(), 1.0);
+    };
+    EXPECT_TRUE(flight.controller.follow({{inMap(0, 0), inMap(8, 0)}, FlightMode::kFast, {}}));
+    EXPECT_TRUE(flight.until([&] { return flight.model.position_m.x() > 3.0; }, 10.0));
+    const double x_m = flight.controller.follower().reference().position_odom_m.x();
+    const Eigen::Vector3d thing_odom_m(x_m + 0.33, 0.45, 1.0), thing_map_m = inMap(x_m + 0.33, 0.45);
+    FlightPath path;
+    path.points_map_m = {inMap(x_m, 0), inMap(x_m, 3)};
+    path.mode = FlightMode::kFast;
+    if (asks)
+      path.clearance_m = [&](const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m) {
+        return std::min(0.325, distanceTo({from_m, to_m}, thing_map_m));
+      };
+    EXPECT_TRUE(flight.controller.follow(path));
+    double least_m = 10.0;
+    EXPECT_TRUE(flight.until(
+        [&] {
+          least_m = std::min(least_m, (flight.model.position_m - thing_odom_m).head<2>().norm());
+          return flight.controller.follower().finished();
+        },
+        25.0));
+    return least_m;
+  };
+  EXPECT_LT(nearest_m(false), 0.27);
+  EXPECT_GT(nearest_m(true), 0.29);
+}
+
 /// The limit of the position controller bounds corrections; a faster mode is flown at its own speed.
 TEST(Flight, EachModeIsFlownAtItsSpeedAboveTheLimitOfCorrections) {
   FlightController::Config config;

@@ -1,4 +1,7 @@
 // Laws of the reference: continuous, within its limits, on its path, at its goal, whatever is changed in flight.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -221,6 +224,111 @@ TEST(PathFollower, AMapCorrectionMovesThePathButNotTheReference) {
   EXPECT_LT(watch.worst_jump_m, 6e-4);
   const Eigen::Vector2d goal = common::Pose2{0.1, -0.2, 0.03} * Eigen::Vector2d(10, 0);
   EXPECT_LT((watch.follower.reference().position_odom_m.head<2>() - goal).norm(), 2e-3);
+}
+
+/// Things that stand, and how near to them the middle of a hull comes.
+struct Things {
+  Points things;
+  double at_m(const Eigen::Vector3d& place) const {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const auto& thing : things) least_m = std::min(least_m, (thing - place).norm());
+    return least_m;
+  }
+  common::ClearanceAlong along(double enough_m) const {
+    return [this, enough_m](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+      double least_m = enough_m;
+      for (const auto& thing : things) {
+        const double share =
+            std::clamp((thing - from).dot(to - from) / std::max(1e-12, (to - from).squaredNorm()), 0.0, 1.0);
+        least_m = std::min(least_m, (from + share * (to - from) - thing).norm());
+      }
+      return least_m;
+    };
+  }
+};
+
+/// Flies at 1 m/s along x when the path turns away at a right angle. Returns how near it came to a thing.
+double leastInTurn_m(const Things& things, bool asks, double& seconds) {
+  Watch watch;
+  watch.follower.setPath({{0, 0, 0}, {10, 0, 0}}, FlightMode::kFast);
+  for (int i = 0; i < 300; ++i) watch.step();
+  const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
+  Things moved = things;
+  for (auto& thing : moved.things) thing += here;
+  watch.seconds = 0.0;
+  watch.worst_jump_m = 0.0;
+  watch.follower.setPath({here, here + Eigen::Vector3d(0, 3, 0)}, FlightMode::kFast, std::nullopt,
+                         asks ? moved.along(0.325) : common::ClearanceAlong());
+  double least_m = std::numeric_limits<double>::infinity();
+  while (!watch.follower.finished() && watch.seconds < 60.0) {
+    watch.step();
+    least_m = std::min(least_m, moved.at_m(watch.follower.reference().position_odom_m));
+  }
+  EXPECT_TRUE(watch.follower.finished());
+  EXPECT_LT(watch.worst_jump_m, 1e-3);
+  EXPECT_LT(watch.worst_acceleration_m_s2, 3.3);
+  seconds = watch.seconds;
+  return least_m;
+}
+
+TEST(PathFollower, CutsACornerOnlyWhereNothingStands) {
+  double free_s = 0.0, braked_s = 0.0, unasked_s = 0.0;
+  // Far away: the turn is flown at speed, as without asking.
+  leastInTurn_m({{{3, 3, 0}}}, true, free_s);
+  leastInTurn_m({{{3, 3, 0}}}, false, unasked_s);
+  EXPECT_EQ(free_s, unasked_s);
+  // In the cut, and clear of the path and of the braking distance.
+  const Things thing{{{0.33, 0.45, 0}}};
+  const double unasked_m = leastInTurn_m(thing, false, unasked_s), asked_m = leastInTurn_m(thing, true, braked_s);
+  std::printf("a corner that is not free: %.3f m in %.1f s, asked %.3f m in %.1f s\n", unasked_m, unasked_s, asked_m,
+              braked_s);
+  EXPECT_LT(unasked_m, 0.275) << "the hull touches what nobody asked for";
+  EXPECT_GT(asked_m, 0.30);
+  EXPECT_GT(braked_s, free_s);
+  EXPECT_LT(braked_s, free_s + 4.0);
+}
+
+TEST(PathFollower, JoinsAtTheNearestPlaceWhereTheLineAheadIsNotFree) {
+  // It stands 0.8 m beside a path that leads past something between the two.
+  const Things thing{{{0.5, 0.45, 0}}};
+  for (const bool asks : {false, true}) {
+    Watch watch({0, 0.8, 0});
+    watch.follower.setPath({{0, 0, 0}, {3, 0, 0}}, FlightMode::kCareful, std::nullopt,
+                           asks ? thing.along(0.325) : common::ClearanceAlong());
+    double least_m = 10.0;
+    while (!watch.follower.finished() && watch.seconds < 60.0) {
+      watch.step();
+      least_m = std::min(least_m, thing.at_m(watch.follower.reference().position_odom_m));
+    }
+    EXPECT_TRUE(watch.follower.finished());
+    EXPECT_EQ(least_m > 0.275, asks) << least_m;
+  }
+}
+
+TEST(PathFollower, NeverComesNearerForAsking) {
+  rc::check([] {
+    common::RandomStream random(static_cast<std::uint64_t>(*rc::gen::inRange(1, 1'000'000)), "cut corners");
+    Things things;
+    for (int i = 0; i < 3; ++i) things.things.push_back({random.uniform(-1, 1.5), random.uniform(-1.5, 1.5), 0});
+    const double turn_rad = random.uniform(-3.1, 3.1);
+    const auto room_m = [&](bool asks) {
+      Watch watch({-2, 0, 0});
+      watch.follower.setPath({{-2, 0, 0}, {5, 0, 0}}, FlightMode::kFast);
+      while (watch.follower.reference().position_odom_m.x() < 0.0) watch.step();
+      const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
+      watch.follower.setPath({here, here + 3.0 * Eigen::Vector3d(std::cos(turn_rad), std::sin(turn_rad), 0)},
+                             FlightMode::kFast, std::nullopt, asks ? things.along(0.325) : common::ClearanceAlong());
+      double least_m = 0.325;
+      while (!watch.follower.finished() && watch.seconds < 60.0) {
+        watch.step();
+        least_m = std::min(least_m, things.at_m(watch.follower.reference().position_odom_m));
+      }
+      RC_ASSERT(watch.follower.finished());
+      return least_m;
+    };
+    // A corner is rounded within its mode's deviation, and the reference keeps to its lines within 2 cm.
+    RC_ASSERT(room_m(true) > room_m(false) - 0.05);
+  });
 }
 
 TEST(PathFollower, RandomPathsAtRandomTimesStayContinuousAndEndAtTheGoal) {

@@ -77,7 +77,7 @@ class Story {
     for (double r = 0.0; r < best;) {
       const common::CellIndex cell = truth_.cellAt(pose.position_m() + r * u);
       if (truth_.states().at(cell) != CellState::kFree) best = std::min(best, r);
-      r += std::max(0.01, truth_.obstacleDistance_m(cell) - 0.1);
+      r += std::max(0.01, truth_.clearance().at_m(cell, Against::kObstacles) - 0.1);
     }
     for (const Person& person : people) best = std::min(best, toDisc(person.place_map_m, person.radius_m, u));
     for (const Person& pole : poles) best = std::min(best, toDisc(pole.place_map_m, pole.radius_m, u));
@@ -109,9 +109,9 @@ class Story {
     for (const Point& edge : keep_out_map_m) edges_level_m.push_back(at.inverse() * edge);
     std::vector<Eigen::Vector2f> below_level_m;
     for (const Point& point : below_the_beams_map_m) below_level_m.push_back((at.inverse() * point).cast<float>());
-    return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at, &map_,
-                              dynamic_.obstacles(), (now - stamp).seconds(), position_sigma_m, below_level_m,
-                              edges_level_m});
+    return avoidance_.update({stamp, points, to_level * velocity_map_m_s, to_level * wanted_map_m_s, at,
+                              &map_.clearance(), dynamic_.obstacles(), (now - stamp).seconds(), position_sigma_m,
+                              below_level_m, edges_level_m});
   }
 
   /// Senses, obeys with its acceleration, and lets time pass. Returns the smallest gap to any person.
@@ -132,7 +132,8 @@ class Story {
     now += Duration::fromSeconds(kTick_s);
     for (const Person& person : people)
       least_gap_m = std::min(least_gap_m, (person.place_map_m - pose.position_m()).norm() - person.radius_m - kHull_m);
-    least_wall_m = std::min(least_wall_m, truth_.obstacleDistance_m(truth_.cellAt(pose.position_m())) - kHull_m);
+    least_wall_m = std::min(least_wall_m,
+                            truth_.clearance().at_m(truth_.cellAt(pose.position_m()), Against::kObstacles) - kHull_m);
     retreats += decision.status.retreating && !was_retreating_;
     was_retreating_ = decision.status.retreating;
     return decision;

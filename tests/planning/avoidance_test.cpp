@@ -38,6 +38,26 @@ TEST(Avoidance, FliesSlowlyOutsideTheViewOfTheLaser) {
   EXPECT_EQ(story.sense({-0.8, 0.1}).speed_limit_m_s, config.blind_speed_m_s);
 }
 
+/// No beam meets what is behind the vehicle.
+TEST(Avoidance, StopsBeforeAMappedWallThatTheLaserDoesNotSee) {
+  Story story;
+  for (int i = 0; i < 800; ++i) story.tick({-0.8, 0.0});
+  EXPECT_LT(story.velocity_map_m_s.norm(), 0.02);
+  EXPECT_GT(story.pose.x_m - kHull_m, 0.02);
+  EXPECT_LT(story.pose.x_m - kHull_m, 0.15);
+  EXPECT_EQ(story.retreats, 0);
+  story.pose = {0.28, 4.0, std::numbers::pi};
+  EXPECT_EQ(story.sense({0.8, 0.0}).speed_limit_m_s, Avoidance::Config::blind_speed_m_s) << "away from it, backwards";
+}
+
+TEST(Avoidance, AMapInWhichItsPlaceIsNotKnownDoesNotBrake) {
+  Story story;
+  story.pose = {0.38, 4.0, 0.0};
+  EXPECT_LT(story.sense({-0.8, 0.0}).speed_limit_m_s, 0.9 * Avoidance::Config::blind_speed_m_s);
+  story.position_sigma_m = 0.5;
+  EXPECT_EQ(story.sense({-0.8, 0.0}).speed_limit_m_s, Avoidance::Config::blind_speed_m_s);
+}
+
 TEST(Avoidance, StopsBeforeAWallFromFullSpeed) {
   Story story;
   for (int i = 0; i < 600; ++i) story.tick({1.5, 0});
@@ -80,7 +100,8 @@ TEST(Avoidance, ALateScanTakesSpeedAheadButNoRoomAtTheSides) {
     story.pose = {8.9, 4.0, 0.0};
     const auto points = story.scan();
     const auto limit = [&](const Point& wanted) {
-      return avoidance.update({story.now, points, wanted, wanted, story.pose, &story.map(), {}, age_s}).speed_limit_m_s;
+      return avoidance.update({story.now, points, wanted, wanted, story.pose, &story.map().clearance(), {}, age_s})
+          .speed_limit_m_s;
     };
     const double ahead_m_s = limit({0.6, 0.0});
     EXPECT_LT(ahead_m_s, last_m_s) << age_s;
@@ -186,7 +207,8 @@ TEST(Avoidance, OneStrayReturnDoesNotBrake) {
   points[540] = {0.5f, 0.0f};
   points[300] = {NAN, NAN};
   Avoidance avoidance({}, kHull_m);
-  const AvoidanceDecision d = avoidance.update({story.now, points, {0.5, 0}, {0.5, 0}, story.pose, &story.map(), {}});
+  const AvoidanceDecision d =
+      avoidance.update({story.now, points, {0.5, 0}, {0.5, 0}, story.pose, &story.map().clearance(), {}});
   EXPECT_FALSE(d.status.braking);
 }
 

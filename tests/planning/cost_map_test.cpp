@@ -31,7 +31,7 @@ RC_GTEST_PROP(CostMap, DistancesEqualBruteForce, (std::uint64_t seed)) {
   for (int i = 0; i < 80; ++i) {
     const CellIndex c{static_cast<int>(random.uniform(-5, 55)), static_cast<int>(random.uniform(-5, 45))};
     const double wall_m = nearest_m(c, occupied);
-    RC_ASSERT(std::abs(map.obstacleDistance_m(c) - std::min(wall_m, map.reach_m())) < 1e-9);
+    RC_ASSERT(std::abs(map.clearance().at_m(c, Against::kObstacles) - std::min(wall_m, map.reach_m())) < 1e-9);
     const bool lethal = wall_m < 0.3 - 1e-9 || nearest_m(c, unknown) < 0.2 - 1e-9;
     if (std::abs(wall_m - 0.3) > 1e-6 && std::abs(nearest_m(c, unknown) - 0.2) > 1e-6)
       RC_ASSERT(lethal == (map.costAt(c) == CostMap::kLethal));

@@ -63,7 +63,7 @@ TEST(Escape, ABlockageIsLookedAtFromWhereThereIsRoomToStop) {
   ASSERT_TRUE(blocked);
   EXPECT_GE(blocked->first_lethal.x, 41);
   EXPECT_LT(blocked->outlook.x, 40);
-  EXPECT_GE(map.obstacleDistance_m(blocked->outlook), map.footprint().stopRadius_m());
+  EXPECT_GE(map.clearance().at_m(blocked->outlook, Against::kObstacles), map.footprint().stopRadius_m());
   EXPECT_FALSE(map.isLethal(map.indexOf({40, 30}))) << "the door itself is passable";
 }
 

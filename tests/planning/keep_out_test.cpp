@@ -81,7 +81,8 @@ TEST_F(KeepOut, FromItsMiddleAPathLeadsOut) {
   const auto along = planner.plan(map_, {4.0, 0.7}, {7.0, 2.0});
   ASSERT_TRUE(along) << along.error().text;
   for (const Eigen::Vector2d& point : along->points_map_m)
-    EXPECT_GE(map_.obstacleDistance_m(map_.cellAt(point)), map_.footprint().radius_m() - 0.05) << point.transpose();
+    EXPECT_GE(map_.clearance().at_m(map_.cellAt(point), Against::kObstacles), map_.footprint().radius_m() - 0.05)
+        << point.transpose();
 }
 
 TEST_F(KeepOut, AZoneThatGoesLeavesNothingBehind) {

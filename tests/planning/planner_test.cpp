@@ -221,9 +221,9 @@ TEST(Planner, PlansAwayFromAWallThatTheVehicleWasPushedTo) {
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->points_map_m.front(), start);
     EXPECT_EQ(dstar.searchCost(), wavefront.searchCost());
-    double distance_m = map.obstacleDistance_m(map.cellAt(start));
+    double distance_m = map.clearance().at_m(map.cellAt(start), Against::kObstacles);
     for (const auto& p : a->points_map_m) {
-      const double next_m = map.obstacleDistance_m(map.cellAt(p));
+      const double next_m = map.clearance().at_m(map.cellAt(p), Against::kObstacles);
       if (distance_m < map.footprint().radius_m()) {
         EXPECT_GE(next_m, distance_m - 1e-9);
       }

@@ -57,7 +57,7 @@ struct Flyer {
   Point place_m = Point::Zero(), velocity_m_s = Point::Zero(), answer_m_s = Point::Zero();
   std::vector<Threat> threats;
   std::vector<Point> walls_m;
-  const CostMap* map = nullptr;
+  const Clearance* map = nullptr;
   std::deque<Point> late;
   double fastest_m_s = 0.0;
   double least_wall_m = std::numeric_limits<double>::infinity();
@@ -140,7 +140,7 @@ TEST(Retreat, UsesTheMapForWallsOutsideTheView) {
   CostMap map({}, 0.05);
   map.update(grid.snapshot(), {});
   Flyer flyer;
-  flyer.map = &map;
+  flyer.map = &map.clearance();
   flyer.place_m = {2.1, 2.5};  // 0.5 m right of the wall that no return shows.
   flyer.threats = {person({3.0, 2.5}, {-0.6, 0.0})};
   flyer.fly(1.0);
