@@ -3,6 +3,8 @@
 // is 10 m (Grzonka 2012, section IV-E: 50-80 ms from scratch, below 10 ms again).
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -150,6 +152,50 @@ void DStarRepair(benchmark::State& state) {
   }
 }
 BENCHMARK(DStarRepair)->ArgName("cluttered")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// A flight through a floor of 350,000 cells to its far end: each scan turns cells at 60 places within 4.5 m of the
+/// vehicle, and somebody stands on the plan 2 m ahead every other second. Only the repair is timed.
+void DStarScans(benchmark::State& state) {
+  constexpr double kResolution_m = 0.05, kScan_s = 0.1, kSpeed_m_s = 0.7;
+  std::vector<double> times_ms;
+  for (auto _ : state) {
+    common::OccupancyGrid grid = hall(700, 500, 120, kResolution_m, true);
+    CostMap map({}, kResolution_m);
+    map.update(grid.snapshot(), {});
+    common::RandomStream random(11, "benchmark scans");
+    planning::DStarLite planner;
+    const Point goal = *planning::nearestFree(map, {33.0, 12.0});
+    Point at = *planning::nearestFree(map, {2.0, 12.0});
+    auto path = planner.plan(map, at, goal);
+    for (int scan = 0; path && (goal - at).norm() > 1.0 && scan < 2000; ++scan) {
+      std::vector<common::Disc> discs;
+      if (const Point step = path->points_map_m[1] - at; scan / 10 % 2 == 1 && step.norm() > 2.0)
+        discs.push_back({at + 2.0 * step.normalized(), 0.25});
+      for (int i = 0; i < 60; ++i) {
+        const Point place = at + Point(random.uniform(-4.5, 4.5), random.uniform(-4.5, 4.5));
+        const CellIndex cell = grid.cellAt(place);
+        if (cell.x < 3 || cell.y < 3 || cell.x > 696 || cell.y > 496 || (place - at).norm() < 1.0) continue;
+        grid.set(cell, random.chance(0.05) ? 60 : -60);
+      }
+      map.update(grid.snapshot(), {}, {discs, nullptr});
+      const auto before = std::chrono::steady_clock::now();
+      auto next = planner.plan(map, at, goal);
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - before;
+      times_ms.push_back(took.count());
+      if (!next) continue;
+      path = std::move(next);
+      const Point step = path->points_map_m[1] - at;
+      at += step.norm() > kSpeed_m_s * kScan_s ? Point(step.normalized() * kSpeed_m_s * kScan_s) : step;
+    }
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto quantile = [&](double share) { return times_ms[static_cast<std::size_t>(share * (times_ms.size() - 1))]; };
+  state.counters["repairs"] = static_cast<double>(times_ms.size());
+  state.counters["median_ms"] = quantile(0.5);
+  state.counters["p99_ms"] = quantile(0.99);
+  state.counters["greatest_ms"] = times_ms.back();
+}
+BENCHMARK(DStarScans)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 /// The vehicle flies on, nothing changes: what each tick of replanning costs.
 void DStarMoved(benchmark::State& state) {
