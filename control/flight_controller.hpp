@@ -15,6 +15,7 @@
 
 #include "common/config_fwd.hpp"
 #include "common/event_log.hpp"
+#include "common/facing.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -55,6 +56,7 @@ struct FlightPath {
   std::vector<Eigen::Vector3d> points_map_m;  ///< z over the take-off floor. The last one is the goal.
   common::FlightMode mode = common::FlightMode::kCareful;
   std::optional<double> goal_yaw_map_rad;
+  std::vector<common::Facing> facings_map = {};  ///< See PathFollower::setPath.
 };
 
 /// The inputs of one tick.
