@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -79,7 +81,12 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   const auto cost_map = desk_.costMap();
   if (!cost_map) return;
   if (!plan()) keeper_.clear();  // A plan that is no longer followed is dropped.
+  const bool had = plan() != nullptr && plan()->points_map_m.back() == path.points_map_m.back();
+  const double before_m = common::polylineLength(remaining_map_m());
   if (!keeper_.offer(path, now, mapsOf(*cost_map), state.T_map_body_planar().position_m())) return;
+  if (had)
+    memory_.log.info(now, kFlightSource, "plan replaced",
+                     fmt::format("{:.1f} m to go instead of {:.1f} m", path.length_m, before_m));
   if (path.isInSpace()) {
     if (!memory_.in_space) {
       const auto [lowest, highest] = std::minmax_element(path.heights_m.begin(), path.heights_m.end());

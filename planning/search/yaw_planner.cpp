@@ -13,13 +13,13 @@ namespace {
 using Point = Eigen::Vector2d;
 using std::numbers::pi;
 
-constexpr int kDirections = 36;  ///< All round, in steps of 10 deg.
-constexpr double kDirection_rad = 2.0 * pi / kDirections;
+constexpr int kYawChoices = 36;  ///< All round, in steps of 10 deg.
+constexpr double kYawChoice_rad = 2.0 * pi / kYawChoices;
 /// The share of the yaw rate that is planned with: the rest makes up for the yaw's acceleration.
 constexpr double kShareOfRate = 0.8;
 /// Between places the nose turns by one direction at full speed.
 constexpr double kLeastStretch_m = 0.05, kMostStretch_m = 0.3;
-constexpr double kAhead_m = 0.5;         ///< The course ahead is that to a point so far on: corners are turned in time.
+constexpr double kCourseAhead_m = 0.5;   ///< The course ahead is that to a point so far on: corners are turned in time.
 constexpr double kLeastSpeed_m_s = 0.1;  ///< At the ends of a path, where the speed goes to zero.
 
 /// A metre flown towards what is not seen is worth this many seconds.
@@ -47,12 +47,12 @@ double unseenShare(double half_field_rad, double off_rad) {
   return std::max(0.0, 1.0 - 0.5 * seen);
 }
 
-double headingOf(const Point& step) { return std::atan2(step.y(), step.x()); }
+double courseOf(const Point& step) { return std::atan2(step.y(), step.x()); }
 
 /// A polyline by the distance along it.
-class Line {
+class PathLine {
  public:
-  explicit Line(const std::vector<Point>& points_m) : points_m_(points_m) {
+  explicit PathLine(const std::vector<Point>& points_m) : points_m_(points_m) {
     for (std::size_t i = 1; i < points_m.size(); ++i)
       along_m_.push_back(along_m_.back() + (points_m[i] - points_m[i - 1]).norm());
   }
@@ -97,12 +97,12 @@ bool YawPlanner::fliesBlind(double off_rad) const { return std::abs(common::wrap
 std::vector<YawPlanner::Place> YawPlanner::placesAlong(const std::vector<Point>& points_m, const YawTask& task) {
   std::vector<Place> places;
   if (points_m.empty()) return places;
-  const Line line(points_m);
+  const PathLine line(points_m);
   const double length_m = line.length_m();
   if (length_m < kLeast_m) return places;
-  const double stretch_m = std::clamp(task.speed_m_s * kDirection_rad / (kShareOfRate * task.yaw_rate_rad_s),
+  const double stretch_m = std::clamp(task.speed_m_s * kYawChoice_rad / (kShareOfRate * task.yaw_rate_rad_s),
                                       kLeastStretch_m, kMostStretch_m);
-  const int stretches = std::clamp(static_cast<int>(std::ceil(length_m / stretch_m)), 1, kMostPlaces - 1);
+  const int stretches = std::clamp(static_cast<int>(length_m / stretch_m), 1, kMostPlaces - 1);
   const double each_m = length_m / stretches;
   // Towards a place nearer than this there is no direction.
   constexpr double kNear_m = 1e-3;
@@ -110,10 +110,11 @@ std::vector<YawPlanner::Place> YawPlanner::placesAlong(const std::vector<Point>&
     const double along_m = i * each_m;
     Place place;
     place.place_m = line.at(along_m);
-    const Point step = line.at(along_m + each_m) - place.place_m, ahead = line.at(along_m + kAhead_m) - place.place_m;
-    const double before_rad = places.empty() ? headingOf(points_m.back() - points_m.front()) : places.back().course_rad;
-    place.course_rad = i < stretches && step.norm() > kNear_m ? headingOf(step) : before_rad;
-    place.ahead_rad = i < stretches && ahead.norm() > kNear_m ? headingOf(ahead) : place.course_rad;
+    const Point step = line.at(along_m + each_m) - place.place_m,
+                ahead = line.at(along_m + kCourseAhead_m) - place.place_m;
+    const double before_rad = places.empty() ? courseOf(points_m.back() - points_m.front()) : places.back().course_rad;
+    place.course_rad = i < stretches && step.norm() > kNear_m ? courseOf(step) : before_rad;
+    place.ahead_rad = i < stretches && ahead.norm() > kNear_m ? courseOf(ahead) : place.course_rad;
     place.length_m = i < stretches ? each_m : 0.0;
     const double middle_m = along_m + 0.5 * each_m, twice = 2.0 * task.acceleration_m_s2;
     const double gained = std::sqrt(task.start_speed_m_s * task.start_speed_m_s + twice * middle_m);
@@ -126,7 +127,7 @@ std::vector<YawPlanner::Place> YawPlanner::placesAlong(const std::vector<Point>&
 
 std::vector<double> YawPlanner::choices(const Place& place, const YawTask& task) {
   std::vector<double> yaws_rad{place.ahead_rad, task.goal_yaw_rad.value_or(task.yaw_rad)};
-  for (int i = 0; i < kDirections; ++i) yaws_rad.push_back(task.yaw_rad + i * kDirection_rad);
+  for (int i = 0; i < kYawChoices; ++i) yaws_rad.push_back(task.yaw_rad + i * kYawChoice_rad);
   return yaws_rad;
 }
 

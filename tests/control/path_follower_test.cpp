@@ -80,9 +80,9 @@ TEST(PathFollower, FacesAPointWhileItFliesPastAndWhileItHolds) {
   EXPECT_LT(worst_rad, 0.02);
   EXPECT_LE(watch.worst_speed_m_s, 0.301) << "it does not wait for its nose";
   watch.follower.lookAt(std::nullopt);
-  watch.follower.setPath({{4, 0, 0}, {0, 0, 0}}, FlightMode::kFast);
+  watch.follower.setPath({{4, 0, 0}, {0, 0, 0}}, FlightMode::kFast, std::nullopt, {{{4, 0}, 3.0}, {{0, 0}, 3.0}});
   for (int i = 0; i < 400; ++i) watch.step();
-  EXPECT_GT(std::abs(watch.follower.reference().yaw_odom_rad), 3.0) << "along its path again";
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 3.0, 0.02) << "as planned again";
 }
 
 TEST(PathFollower, AStraightLineHasATrapezoidalSpeedProfile) {
@@ -189,26 +189,75 @@ TEST(PathFollower, ASpeedLimitTakesEffectWithinTheBrakingTime) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, FacesItsCourseOnLongPathsAndKeepsTheYawOnShortOnes) {
-  Watch watch;
-  watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast);
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02);
-  EXPECT_LE(watch.worst_yaw_rate * 180 / std::numbers::pi, 60.1);
-  watch.seconds = 0;
-  watch.follower.setPath({{0, 4, 0}, {-0.3, 4, 0}}, FlightMode::kFast);
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02) << "sideways";
+/// Facings from a yaw to another, evenly along a straight path in the plane.
+std::vector<common::Facing> evenly(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double yaw_rad,
+                                   double end_yaw_rad, double speed_m_s = std::numeric_limits<double>::infinity()) {
+  constexpr int kStretches = 20;
+  std::vector<common::Facing> facings;
+  for (int i = 0; i <= kStretches; ++i) {
+    const double share = static_cast<double>(i) / kStretches;
+    facings.push_back({from + share * (to - from), yaw_rad + share * (end_yaw_rad - yaw_rad), speed_m_s});
+  }
+  return facings;
 }
 
-TEST(PathFollower, FliesSlowlyOutsideTheViewOfTheLaser) {
+TEST(PathFollower, FliesTheYawThatWasPlannedAlongItsPath) {
   Watch watch;
-  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast);
-  while (std::abs(watch.follower.reference().yaw_odom_rad) < 75 * std::numbers::pi / 180) {
+  watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast, 1.2, evenly({0, 0}, {0, 4}, 0.0, 1.2));
+  double worst_rad = 0.0;
+  while (!watch.follower.finished() && watch.seconds < 60) {
+    watch.step();
+    const Reference& reference = watch.follower.reference();
+    // The nose leads by a stretch, 0.2 m.
+    const double planned_rad = std::min(1.2, (reference.position_odom_m.y() + 0.2) / 4.0 * 1.2);
+    worst_rad = std::max(worst_rad, std::abs(reference.yaw_odom_rad - planned_rad));
+  }
+  EXPECT_TRUE(watch.follower.finished());
+  EXPECT_LT(worst_rad, 0.07);
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.01);
+  EXPECT_LE(watch.worst_yaw_rate * 180 / std::numbers::pi, 60.1);
+  watch.seconds = 0;
+  watch.follower.setPath({{0, 4, 0}, {-3, 4, 0}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02) << "nothing is planned: it stays";
+}
+
+TEST(PathFollower, WaitsForItsNoseWhereThatWasPlanned) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, -3.1, -3.1);
+  facings.front().yaw_rad = 0.0;
+  facings.front().speed_m_s = 0.05;  // 0.2 m in 4 s, in which the nose turns round.
+  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast, std::nullopt, facings);
+  while (std::abs(watch.follower.reference().yaw_odom_rad) < 2.8 && watch.seconds < 10) {
     watch.step();
     EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.2);
   }
+  EXPECT_LT(watch.follower.reference().position_odom_m.norm(), 0.3);
   EXPECT_TRUE(watch.finish());
+}
+
+TEST(PathFollower, ANoseThatFacedSomethingElseIsWaitedFor) {
+  Watch watch;
+  watch.follower.lookAt(Eigen::Vector2d(0, -100));
+  for (int i = 0; i < 300; ++i) watch.step();
+  watch.follower.setPath({{0, 0, 0}, {6, 0, 0}}, FlightMode::kFast, std::nullopt, evenly({0, 0}, {6, 0}, 0.0, 0.0));
+  for (int i = 0; i < 200; ++i) watch.step();
+  EXPECT_GT(watch.follower.reference().velocity_odom_m_s.norm(), 0.9) << "not while it faces a point";
+  watch.follower.lookAt(std::nullopt);
+  for (int i = 0; i < 90; ++i) watch.step();
+  EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.25);
+  EXPECT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 0.0, 0.02);
+}
+
+TEST(PathFollower, TheNoseTurnsAlthoughTheVehicleIsHeldUp) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, 2.5, 2.5);
+  facings.front() = {{0, 0}, 0.0, 0.06};
+  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast, std::nullopt, facings);
+  watch.follower.setSpeedLimit(0.0);  // The reactive layer does not see where it would fly.
+  for (int i = 0; i < 400; ++i) watch.step();
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 2.5, 0.02);
 }
 
 TEST(PathFollower, AMapCorrectionMovesThePathButNotTheReference) {
