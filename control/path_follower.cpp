@@ -25,8 +25,9 @@ constexpr double kOnPath_m = 0.03;
 constexpr double kJoin_m = 1.5;
 constexpr double kLeastJoin_m = 0.3;     ///< Least distance along the path from abreast of the reference to the join.
 constexpr double kClimbSpeed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
-/// A nose that is this far from its planned yaw, as after it faced something else, is waited for at this speed.
-constexpr double kNoseLag_rad = 20.0 * common::kRadPerDeg, kWaits_m_s = 0.15;
+/// A nose that is this far from its planned yaw, as after it faced something else, is waited for at this speed. A laser
+/// of 270 deg sees the way of the hull up to 100 deg off its nose, and planned yaws are mostly within 40 deg.
+constexpr double kNoseLag_rad = 60.0 * common::kRadPerDeg, kWaits_m_s = 0.15;
 /// Curves are sampled: braking for them may be this much firmer than planned.
 constexpr double kFirmer = 1.2;
 constexpr double kFilter_rad_s = 5.0;  ///< Bandwidth of the reference filter.
@@ -175,7 +176,8 @@ double PathFollower::allowedSpeed_m_s() const {
   const Eigen::Vector3d line_m = carrot_.line_m();
   const double length_m = line_m.norm();
   if (std::abs(line_m.z()) > 1e-6) speed_m_s = std::min(speed_m_s, climbSpeed_m_s() * length_m / std::abs(line_m.z()));
-  return std::min(speed_m_s, speedForNose_m_s());
+  const bool climbs = line_m.head<2>().norm() <= 0.5 * length_m;
+  return climbs ? speed_m_s : std::min(speed_m_s, speedForNose_m_s());
 }
 
 double PathFollower::speedForNose_m_s() const {

@@ -238,16 +238,26 @@ TEST(PathFollower, WaitsForItsNoseWhereThatWasPlanned) {
 
 TEST(PathFollower, ANoseThatFacedSomethingElseIsWaitedFor) {
   Watch watch;
-  watch.follower.lookAt(Eigen::Vector2d(0, -100));
-  for (int i = 0; i < 300; ++i) watch.step();
+  watch.follower.lookAt(Eigen::Vector2d(-100, -1));
+  for (int i = 0; i < 400; ++i) watch.step();
   watch.follower.setPath({{0, 0, 0}, {6, 0, 0}}, FlightMode::kFast, std::nullopt, evenly({0, 0}, {6, 0}, 0.0, 0.0));
   for (int i = 0; i < 200; ++i) watch.step();
   EXPECT_GT(watch.follower.reference().velocity_odom_m_s.norm(), 0.9) << "not while it faces a point";
   watch.follower.lookAt(std::nullopt);
-  for (int i = 0; i < 90; ++i) watch.step();
+  for (int i = 0; i < 150; ++i) watch.step();
   EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.25);
   EXPECT_TRUE(watch.finish());
   EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 0.0, 0.02);
+}
+
+TEST(PathFollower, AClimbDoesNotWaitForTheNose) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, 2.5, 2.5);
+  facings.front() = {{0, 0}, 0.0, 0.06};
+  watch.follower.setPath({{0, 0, 1}, {0, 0, 2}, {-4, 0, 2}}, FlightMode::kFast, std::nullopt, facings);
+  for (int i = 0; i < 400; ++i) watch.step();
+  EXPECT_GT(watch.follower.reference().position_odom_m.z(), 1.8);
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 2.5, 0.02);
 }
 
 TEST(PathFollower, TheNoseTurnsAlthoughTheVehicleIsHeldUp) {
