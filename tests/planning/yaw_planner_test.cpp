@@ -151,9 +151,9 @@ TEST(YawPlanner, WhoSeesAllRoundNeverWaitsForItsNose) {
 }
 
 TEST(YawPlanner, ACameraIsTurnedToWhereItFliesWhereALaserIsNot) {
-  const std::vector<Point> aside{{0, 0}, {0, 0.8}};
-  EXPECT_LT(turned_rad(YawPlanner(kLaser).plan(aside, kTask)), 40.0 * kDeg);
-  EXPECT_GT(turned_rad(YawPlanner(kLaserAndCamera).plan(aside, kTask)), 45.0 * kDeg);
+  const std::vector<Point> aside{{0, 0}, {0, 2}};
+  EXPECT_LT(turned_rad(YawPlanner(kLaser).plan(aside, kTask)), 65.0 * kDeg);
+  EXPECT_GT(turned_rad(YawPlanner(kLaserAndCamera).plan(aside, kTask)), 75.0 * kDeg);
 }
 
 TEST(YawPlanner, TheNoseIsWhereTheGoalWantsItWithoutAWaitOnALongPath) {
