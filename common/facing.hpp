@@ -11,7 +11,7 @@ namespace swiftlet::common {
 struct Facing {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< In the frame of the path, as the yaw.
   double yaw_rad = 0.0;
-  /// Greatest speed from here to the next place: the vehicle waits for its nose, or does not see where it flies.
+  /// Greatest speed from here to the next place, where the vehicle does not see where it flies.
   double speed_m_s = std::numeric_limits<double>::infinity();
 };
 

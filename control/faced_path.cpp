@@ -46,14 +46,21 @@ double FacedPath::turnAhead_rad_m() const {
   return common::wrapAngle(facings_[at_ + 2].yaw_rad - facings_[at_ + 1].yaw_rad) / lengthOf(at_ + 1);
 }
 
-double FacedPath::allowedSpeed_m_s(double braking_m_s2) const {
+double FacedPath::allowedSpeed_m_s(double braking_m_s2, const Nose& nose) const {
   constexpr double kFarthest_m = 1.0;  // Farther than the vehicle brakes for the blind speed from 1.2 m/s.
+  constexpr double kLag_rad = 10.0 * common::kRadPerDeg;  // So far the nose may be behind.
+  constexpr double kLeast_m_s = 0.03;                     // The carrot gets on.
   double speed_m_s = std::numeric_limits<double>::infinity();
   double ahead_m = 0.0;
   for (std::size_t i = at_; i + 1 < facings_.size() && ahead_m < kFarthest_m; ++i) {
-    const double slowest_m_s = facings_[i].speed_m_s;
+    const double left_m = (i == at_ ? 1.0 - share_ : 1.0) * lengthOf(i);
+    double turn_rad = std::abs(common::wrapAngle(facings_[i + 1].yaw_rad - facings_[i].yaw_rad));
+    if (i == at_) turn_rad = std::min(turn_rad, std::abs(common::wrapAngle(facings_[i + 1].yaw_rad - nose.yaw_rad)));
+    double slowest_m_s = facings_[i].speed_m_s;
+    if (turn_rad > kLag_rad)
+      slowest_m_s = std::min(slowest_m_s, std::max(kLeast_m_s, left_m * nose.rate_rad_s / (turn_rad - kLag_rad)));
     speed_m_s = std::min(speed_m_s, std::sqrt(slowest_m_s * slowest_m_s + 2.0 * braking_m_s2 * ahead_m));
-    ahead_m += (i == at_ ? 1.0 - share_ : 1.0) * lengthOf(i);
+    ahead_m += left_m;
   }
   return speed_m_s;
 }

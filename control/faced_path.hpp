@@ -27,8 +27,15 @@ class FacedPath {
   double yawAhead_rad() const { return yawAt(at_ + 1, share_); }
   /// How the yaw turns along the path there.
   double turnAhead_rad_m() const;
+  /// How the nose turns: what it has, and how fast it may.
+  struct Nose {
+    double yaw_rad = 0.0;
+    double rate_rad_s = 1.0;
+  };
   /// The speed at which the carrot may go on, so that it can brake for every slower stretch ahead; infinity if none is.
-  double allowedSpeed_m_s(double braking_m_s2) const;
+  /// A stretch is slower where it was planned so, and where the nose has more to turn than it can on the way: where it
+  /// has turned already, it is not waited for.
+  double allowedSpeed_m_s(double braking_m_s2, const Nose& nose) const;
 
  private:
   bool onLast() const { return at_ + 1 >= facings_.size(); }

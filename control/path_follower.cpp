@@ -183,7 +183,8 @@ double PathFollower::allowedSpeed_m_s() const {
 double PathFollower::speedForNose_m_s() const {
   if (faced_.empty() || yaw_.facesPoint()) return std::numeric_limits<double>::infinity();
   const double lag_rad = common::wrapAngle(faced_.yaw_rad() - reference_.yaw_odom_rad);
-  const double planned_m_s = faced_.allowedSpeed_m_s(acceleration_m_s2(mode_));
+  const double planned_m_s =
+      faced_.allowedSpeed_m_s(acceleration_m_s2(mode_), {reference_.yaw_odom_rad, yawRate_rad_s()});
   return std::abs(lag_rad) > kNoseLag_rad ? std::min(planned_m_s, kWaits_m_s) : planned_m_s;
 }
 

@@ -47,13 +47,29 @@ TEST(FacedPath, ACarrotThatRoundsASharpTurnGetsOn) {
 
 TEST(FacedPath, BrakesInTimeForWhatIsSlow) {
   FacedPath faced;
-  faced.lay(kCorner);
+  std::vector<Facing> straight;
+  for (int i = 0; i <= 4; ++i) straight.push_back({{i, 0}, 0.0});
+  straight[2].speed_m_s = 0.2;
+  faced.lay(straight);
+  const FacedPath::Nose nose{0.0, 1.0};
   faced.advance({0.8, 0.0});
-  EXPECT_EQ(faced.allowedSpeed_m_s(0.5), std::numeric_limits<double>::infinity()) << "1.2 m ahead";
-  faced.advance({1.0, 0.5});
-  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5), std::sqrt(0.2 * 0.2 + 2.0 * 0.5 * 0.5), 1e-9);
-  faced.advance({1.0, 1.5});
-  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5), 0.2, 1e-9);
+  EXPECT_EQ(faced.allowedSpeed_m_s(0.5, nose), std::numeric_limits<double>::infinity()) << "1.2 m ahead";
+  faced.advance({1.5, 0.0});
+  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5, nose), std::sqrt(0.2 * 0.2 + 2.0 * 0.5 * 0.5), 1e-9);
+  faced.advance({2.5, 0.0});
+  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5, nose), 0.2, 1e-9);
+}
+
+TEST(FacedPath, WaitsForTheNoseUntilThatHasTurned) {
+  FacedPath faced;
+  faced.lay({{{0, 0}, 0.0}, {{0.2, 0}, 2.0}, {{0.4, 0}, 2.0}});
+  const double lag_rad = 10.0 * common::kRadPerDeg;
+  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5, {0.0, 1.0}), 0.2 / (2.0 - lag_rad), 1e-9);
+  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5, {1.0, 1.0}), 0.2 / (1.0 - lag_rad), 1e-9) << "half of the turn is left";
+  EXPECT_GT(faced.allowedSpeed_m_s(0.5, {1.9, 1.0}), 100.0);
+  EXPECT_NEAR(faced.allowedSpeed_m_s(0.5, {-1.0, 1.0}), 0.2 / (2.0 - lag_rad), 1e-9) << "no more than was planned";
+  faced.advance({0.3, 0.0});
+  EXPECT_GT(faced.allowedSpeed_m_s(0.5, {0.0, 1.0}), 100.0);
 }
 
 TEST(FacedPath, MovesWithTheMap) {

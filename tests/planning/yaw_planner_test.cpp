@@ -38,6 +38,14 @@ double turned_rad(const std::vector<Facing>& facings) {
   return sum_rad;
 }
 
+/// The greatest turn between two places.
+double greatestTurn_rad(const std::vector<Facing>& facings) {
+  double most_rad = 0.0;
+  for (std::size_t i = 1; i < facings.size(); ++i)
+    most_rad = std::max(most_rad, std::abs(common::wrapAngle(facings[i].yaw_rad - facings[i - 1].yaw_rad)));
+  return most_rad;
+}
+
 double cost_s(const YawPlanner& planner, const std::vector<YawPlanner::Place>& places,
               const std::vector<double>& yaws_rad, const YawTask& task) {
   double sum_s = 0.0;
@@ -107,9 +115,12 @@ RC_GTEST_PROP(YawPlanner, KeepsTheYawRateAndTheEnds, (std::uint64_t seed)) {
   if (task.goal_yaw_rad) RC_ASSERT(std::abs(common::wrapAngle(facings.back().yaw_rad - *task.goal_yaw_rad)) < 1e-9);
   const auto places = YawPlanner::placesAlong(path, task);
   for (std::size_t i = 0; i + 1 < facings.size(); ++i) {
-    const double speed_m_s = std::min(facings[i].speed_m_s, places[i].speed_m_s);
+    const auto step = planner.step(places[i], facings[i].yaw_rad, facings[i + 1].yaw_rad, task);
     const double turn_rad = std::abs(common::wrapAngle(facings[i + 1].yaw_rad - facings[i].yaw_rad));
-    RC_ASSERT(turn_rad * speed_m_s / places[i].length_m <= task.yaw_rate_rad_s + 1e-9);
+    RC_ASSERT(turn_rad <= step.time_s * task.yaw_rate_rad_s + 1e-9);
+    const bool blind = planner.fliesBlind(facings[i].yaw_rad - places[i].course_rad) ||
+                       planner.fliesBlind(facings[i + 1].yaw_rad - places[i].course_rad);
+    RC_ASSERT((facings[i].speed_m_s < 0.2) == blind);
   }
   const std::vector<Facing> again = planner.plan(path, task);
   for (std::size_t i = 0; i < facings.size(); ++i) {
@@ -136,7 +147,8 @@ TEST(YawPlanner, ALongPathBehindTheVehicleIsFacedFirst) {
     if (planner.fliesBlind(offCourse_rad(facings, i))) blind_m += (facings[i + 1].place_m - facings[i].place_m).norm();
   }
   EXPECT_LT(blind_m, 0.4) << "before its laser sees where it flies";
-  EXPECT_LT(facings.front().speed_m_s, 0.16) << "it waits for its nose";
+  EXPECT_LT(facings.front().speed_m_s, 0.16) << "until it sees where it flies";
+  EXPECT_GT(greatestTurn_rad(facings), 60.0 * kDeg) << "it turns before it flies";
   EXPECT_LT(offCourse_rad(facings, facings.size() / 2), 25.0 * kDeg);
 }
 
@@ -147,6 +159,7 @@ TEST(YawPlanner, WhoSeesAllRoundNeverWaitsForItsNose) {
     task.yaw_rad = random.uniform(-3.1, 3.1);
     const auto facings = YawPlanner(kAllRound).plan({{0, 0}, {random.uniform(-4, 4), 3}, {5, 5}}, task);
     for (const Facing& facing : facings) EXPECT_GT(facing.speed_m_s, 100.0);
+    EXPECT_LT(greatestTurn_rad(facings), 31.0 * kDeg) << "at the start, where it is slow anyway";
   }
 }
 
@@ -161,7 +174,7 @@ TEST(YawPlanner, TheNoseIsWhereTheGoalWantsItWithoutAWaitOnALongPath) {
   task.goal_yaw_rad = 90.0 * kDeg;
   const auto facings = YawPlanner(kLaser).plan({{0, 0}, {6, 0}}, task);
   EXPECT_NEAR(facings.back().yaw_rad, 90.0 * kDeg, 1e-9);
-  for (const Facing& facing : facings) EXPECT_GT(facing.speed_m_s, 100.0);
+  EXPECT_LT(greatestTurn_rad(facings), 31.0 * kDeg);
   EXPECT_LT(offCourse_rad(facings, facings.size() / 2), 1.0 * kDeg) << "not before it needs to";
 }
 
