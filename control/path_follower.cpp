@@ -182,10 +182,12 @@ double PathFollower::allowedSpeed_m_s() const {
 
 double PathFollower::speedForNose_m_s() const {
   if (faced_.empty() || yaw_.facesPoint()) return std::numeric_limits<double>::infinity();
-  const double lag_rad = common::wrapAngle(faced_.yaw_rad() - reference_.yaw_odom_rad);
-  const double planned_m_s =
-      faced_.allowedSpeed_m_s(acceleration_m_s2(mode_), {reference_.yaw_odom_rad, yawRate_rad_s()});
-  return std::abs(lag_rad) > kNoseLag_rad ? std::min(planned_m_s, kWaits_m_s) : planned_m_s;
+  // The nose may lead by a stretch.
+  const double yaw_rad = reference_.yaw_odom_rad;
+  const double lag_rad = std::min(std::abs(common::wrapAngle(faced_.yaw_rad() - yaw_rad)),
+                                  std::abs(common::wrapAngle(faced_.yawAhead_rad() - yaw_rad)));
+  const double planned_m_s = faced_.allowedSpeed_m_s(acceleration_m_s2(mode_), {yaw_rad, yawRate_rad_s()});
+  return lag_rad > kNoseLag_rad ? std::min(planned_m_s, kWaits_m_s) : planned_m_s;
 }
 
 void PathFollower::pullReference(const Carrot& carrot, double dt_s) {

@@ -24,7 +24,7 @@ constexpr double kLeastSpeed_m_s = 0.1;  ///< At the ends of a path, where the s
 
 /// A metre flown towards what the laser does not see is worth this many seconds; towards what a camera does not see, in
 /// whose place the laser still brakes, this many.
-constexpr double kUnseen_s_m = 6.0, kUnfilmed_s_m = 2.0;
+constexpr double kUnseen_s_m = 2.0, kUnfilmed_s_m = 2.0;
 /// The nose leads: a plan is often replaced while it is flown, and from a nose ahead the way of the next is in view.
 constexpr double kOffCourse_s_m = 0.5;
 /// A radian of turning costs a third of the time that it takes: pictures and scans of a turning vehicle are worse.
