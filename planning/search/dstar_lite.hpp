@@ -58,9 +58,9 @@ class DStarLite final : public Planner {
   struct Vertex {
     std::int32_t g = kInfinity;
     std::int32_t rhs = kInfinity;
-    std::int32_t place = -1;        ///< Position in the heap; -1: not in it.
-    std::uint8_t moves = 0;         ///< Bit i: an edge leads to neighbour i.
-    std::uint8_t parent = kNone;    ///< The neighbour whose g gives rhs.
+    std::int32_t place = -1;       ///< Position in the heap; -1: not in it.
+    std::uint8_t moves = 0;        ///< Bit i: an edge leads to neighbour i.
+    std::uint8_t parent = kNone;   ///< The neighbour whose g gives rhs.
     std::uint16_t generation = 0;  ///< If older than generation_, not touched since the restart.
   };
   struct Entry {
@@ -101,7 +101,7 @@ class DStarLite final : public Planner {
   std::int32_t goal_ = -1;
   std::int32_t start_ = -1;
   common::CellIndex start_offset_;  ///< Of the start in the rectangle.
-  std::uint32_t key_offset_ = 0;  ///< k_m of the paper.
+  std::uint32_t key_offset_ = 0;    ///< k_m of the paper.
   std::uint16_t generation_ = 0;
   std::vector<CostMap::Cost> cost_;  ///< The costs that the search is based on.
   SurfaceSteps steps_;               ///< The steps that it is based on.
