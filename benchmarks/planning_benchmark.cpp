@@ -3,7 +3,9 @@
 // is 10 m (Grzonka 2012, section IV-E: 50-80 ms from scratch, below 10 ms again).
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <queue>
@@ -150,6 +152,52 @@ void DStarRepair(benchmark::State& state) {
   }
 }
 BENCHMARK(DStarRepair)->ArgName("cluttered")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// A flight through a floor of 350,000 cells to its far end: each scan turns cells at six places within 4.5 m of the
+/// vehicle, three that become occupied and three that are free again after a second. Only the repair is timed, in
+/// processor time.
+void DStarScans(benchmark::State& state) {
+  constexpr double kResolution_m = 0.05, kScan_s = 0.1, kSpeed_m_s = 0.7;
+  std::vector<double> times_ms;
+  for (auto _ : state) {
+    common::OccupancyGrid grid = hall(700, 500, 120, kResolution_m, true);
+    CostMap map({}, kResolution_m);
+    map.update(grid.snapshot(), {});
+    common::RandomStream random(11, "benchmark scans");
+    planning::DStarLite planner;
+    const Point goal = *planning::nearestFree(map, {33.0, 12.0});
+    Point at = *planning::nearestFree(map, {2.0, 12.0});
+    auto path = planner.plan(map, at, goal);
+    std::vector<CellIndex> occupied;
+    for (int scan = 0; path && (goal - at).norm() > 1.0 && scan < 600; ++scan) {
+      while (occupied.size() > 30) {
+        grid.set(occupied.front(), -60);
+        occupied.erase(occupied.begin());
+      }
+      for (int i = 0; i < 3; ++i) {
+        const CellIndex cell = grid.cellAt(at + Point(random.uniform(-4.5, 4.5), random.uniform(-4.5, 4.5)));
+        if (grid.at(cell) >= 0 || (grid.centerOf(cell) - at).norm() < 1.0) continue;
+        grid.set(cell, 60);
+        occupied.push_back(cell);
+      }
+      map.update(grid.snapshot(), {});
+      const std::clock_t before = std::clock();
+      auto next = planner.plan(map, at, goal);
+      times_ms.push_back(1e3 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+      if (!next) continue;
+      path = std::move(next);
+      const Point step = path->points_map_m[1] - at;
+      at += step.norm() > kSpeed_m_s * kScan_s ? Point(step.normalized() * kSpeed_m_s * kScan_s) : step;
+    }
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto quantile = [&](double share) { return times_ms[static_cast<std::size_t>(share * (times_ms.size() - 1))]; };
+  state.counters["repairs"] = static_cast<double>(times_ms.size());
+  state.counters["median_ms"] = quantile(0.5);
+  state.counters["p99_ms"] = quantile(0.99);
+  state.counters["greatest_ms"] = times_ms.back();
+}
+BENCHMARK(DStarScans)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 /// The vehicle flies on, nothing changes: what each tick of replanning costs.
 void DStarMoved(benchmark::State& state) {

@@ -106,6 +106,10 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
   if (std::string refusal = refusalToFollow("paths"); !refusal.empty()) return tl::unexpected(std::move(refusal));
   const bool finite = std::all_of(path.points_map_m.begin(), path.points_map_m.end(),
                                   [](const Eigen::Vector3d& point) { return point.allFinite(); }) &&
+                      std::all_of(path.facings_map.begin(), path.facings_map.end(),
+                                  [](const common::Facing& facing) {
+                                    return facing.place_m.allFinite() && std::isfinite(facing.yaw_rad);
+                                  }) &&
                       std::isfinite(path.goal_yaw_map_rad.value_or(0.0));
   if (!finite) return tl::unexpected(std::string("the path has points that are not finite"));
 
@@ -123,7 +127,12 @@ tl::expected<void, std::string> FlightController::follow(const FlightPath& path)
     clearance_m = [&](const Eigen::Vector3d& from_odom_m, const Eigen::Vector3d& to_odom_m) {
       return path.clearance_m(inFrame(last_state_.T_map_odom, from_odom_m), inFrame(last_state_.T_map_odom, to_odom_m));
     };
-  follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad, clearance_m);
+  std::vector<common::Facing> facings_odom = path.facings_map;
+  for (common::Facing& facing : facings_odom) {
+    facing.place_m = T_odom_map * facing.place_m;
+    facing.yaw_rad = common::wrapAngle(facing.yaw_rad + T_odom_map.yaw_rad);
+  }
+  follower_.setPath(std::move(points_odom_m), path.mode, yaw_odom_rad, std::move(facings_odom), clearance_m);
   return {};
 }
 

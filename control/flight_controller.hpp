@@ -16,6 +16,7 @@
 #include "common/clearance_along.hpp"
 #include "common/config_fwd.hpp"
 #include "common/event_log.hpp"
+#include "common/facing.hpp"
 #include "common/vehicle.hpp"
 #include "common/vehicle_config.hpp"
 #include "common/vehicle_state.hpp"
@@ -58,6 +59,7 @@ struct FlightPath {
   std::optional<double> goal_yaw_map_rad;
   /// In `map`, only asked while the path is given; null: the vehicle joins the path by the smoothest lines.
   common::ClearanceAlong clearance_m = {};
+  std::vector<common::Facing> facings_map = {};  ///< See PathFollower::setPath.
 };
 
 /// The inputs of one tick.

@@ -19,13 +19,10 @@ namespace {
 constexpr double kKink_m_s = 0.12;
 /// Points this close to the line between their neighbours are left out.
 constexpr double kSimplifyTolerance_m = 0.01;
-/// Goals farther than this are faced; nearer ones are flown to sideways.
-constexpr double kTurnDistance_m = 0.6;
-constexpr double kLookAhead_m = 0.5;     ///< The yaw faces the path this far ahead.
 constexpr double kClimbSpeed_m_s = 0.5;  ///< Greatest vertical part of the speed, in every mode.
-/// Where the path leads this far off the nose, which the laser does not see, the vehicle turns first, and flies at most
-/// this fast.
-constexpr double kTurnFirst_rad = 100.0 * common::kRadPerDeg, kTurnFirstSpeed_m_s = 0.15;
+/// A nose that is this far from its planned yaw, as after it faced something else, is waited for at this speed. A laser
+/// of 270 deg sees the way of the hull up to 100 deg off its nose, and planned yaws are mostly within 40 deg.
+constexpr double kNoseLag_rad = 60.0 * common::kRadPerDeg, kWaits_m_s = 0.15;
 /// Curves are sampled: braking for them may be this much firmer than planned.
 constexpr double kFirmer = 1.2;
 constexpr double kFilter_rad_s = 5.0;  ///< Bandwidth of the reference filter.
@@ -56,12 +53,14 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_
   carrot_.lay(std::move(points), {limits().speed_m_s, acceleration_m_s2, climbSpeed_m_s(), kKink_m_s},
               kFirmer * limits().acceleration_m_s2);
   follows_path_ = false;
+  faced_.lay({});
   pace_m_s_ = std::numeric_limits<double>::infinity();
   velocity_carrot_.reset();
 }
 
 void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
-                           std::optional<double> goal_yaw_odom_rad, const common::ClearanceAlong& clearance_odom_m) {
+                           std::optional<double> goal_yaw_odom_rad, std::vector<common::Facing> facings_odom,
+                           const common::ClearanceAlong& clearance_odom_m) {
   mode_ = mode;
   if (points.empty()) {
     stop();
@@ -73,7 +72,8 @@ void PathFollower::setPath(std::vector<Eigen::Vector3d> points, FlightMode mode,
       acceleration_share_ * limits().acceleration_m_s2);
   follows_path_ = true;
   carrot_.setSpeed(std::max(0.0, reference_.velocity_odom_m_s.dot(carrot_.line_m().normalized())));
-  yaw_.setGoal(goal_yaw_odom_rad, remaining_m() > kTurnDistance_m);
+  faced_.lay(std::move(facings_odom));
+  yaw_.setGoal(goal_yaw_odom_rad);
 }
 
 void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double acceleration_m_s2,
@@ -83,7 +83,7 @@ void PathFollower::setVelocity(const Eigen::Vector3d& velocity_odom_m_s, double 
     velocity_carrot_.emplace(Carrot{reference_.position_odom_m, reference_.velocity_odom_m_s, Eigen::Vector3d::Zero()});
   }
   velocity_carrot_->setTarget(velocity_odom_m_s, acceleration_m_s2);
-  yaw_.setGoal(yaw_odom_rad, false);
+  yaw_.setGoal(yaw_odom_rad);
 }
 
 void PathFollower::stop() {
@@ -110,15 +110,20 @@ void PathFollower::setShares(double speed, double acceleration) {
 
 void PathFollower::movePath(const common::Pose2& T_new_old) {
   carrot_.move(T_new_old);
+  faced_.move(T_new_old);
   yaw_.turn(T_new_old.yaw_rad);
   if (velocity_carrot_) velocity_carrot_->turn(T_new_old.yaw_rad);
 }
 
 const Reference& PathFollower::advance(double dt_s) {
-  pullReference(velocity_carrot_ ? velocity_carrot_->advance(dt_s) : carrot_.advance(dt_s, allowedSpeed_m_s()), dt_s);
-  std::optional<Eigen::Vector3d> ahead_odom_m;
-  if (remaining_m() > kTurnDistance_m) ahead_odom_m = carrot_.pointAhead(kLookAhead_m);
-  yaw_.advance(reference_, ahead_odom_m, !velocity_carrot_, dt_s);
+  const Carrot carrot = velocity_carrot_ ? velocity_carrot_->advance(dt_s) : carrot_.advance(dt_s, allowedSpeed_m_s());
+  pullReference(carrot, dt_s);
+  std::optional<PlannedYaw> planned;
+  if (!faced_.empty()) {
+    faced_.advance(carrot.position_odom_m.head<2>());
+    planned = {faced_.yawAhead_rad(), faced_.turnAhead_rad_m() * carrot.velocity_odom_m_s.head<2>().norm()};
+  }
+  yaw_.advance(reference_, planned, !velocity_carrot_, dt_s);
   return reference_;
 }
 
@@ -127,12 +132,18 @@ double PathFollower::allowedSpeed_m_s() const {
   const Eigen::Vector3d line_m = carrot_.line_m();
   const double length_m = line_m.norm();
   if (std::abs(line_m.z()) > 1e-6) speed_m_s = std::min(speed_m_s, climbSpeed_m_s() * length_m / std::abs(line_m.z()));
-  const double planar_m = line_m.head<2>().norm();
-  if (yaw_.facesTravel() && planar_m > 0.5 * length_m) {
-    const double off_nose_rad = common::wrapAngle(std::atan2(line_m.y(), line_m.x()) - reference_.yaw_odom_rad);
-    if (std::abs(off_nose_rad) > kTurnFirst_rad) speed_m_s = std::min(speed_m_s, kTurnFirstSpeed_m_s);
-  }
-  return speed_m_s;
+  const bool climbs = line_m.head<2>().norm() <= 0.5 * length_m;
+  return climbs ? speed_m_s : std::min(speed_m_s, speedForNose_m_s());
+}
+
+double PathFollower::speedForNose_m_s() const {
+  if (faced_.empty() || yaw_.facesPoint()) return std::numeric_limits<double>::infinity();
+  // The nose may lead by a stretch.
+  const double yaw_rad = reference_.yaw_odom_rad;
+  const double lag_rad = std::min(std::abs(common::wrapAngle(faced_.yaw_rad() - yaw_rad)),
+                                  std::abs(common::wrapAngle(faced_.yawAhead_rad() - yaw_rad)));
+  const double planned_m_s = faced_.allowedSpeed_m_s(acceleration_m_s2(mode_), {yaw_rad, yawRate_rad_s()});
+  return lag_rad > kNoseLag_rad ? std::min(planned_m_s, kWaits_m_s) : planned_m_s;
 }
 
 void PathFollower::pullReference(const Carrot& carrot, double dt_s) {

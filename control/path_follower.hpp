@@ -12,8 +12,10 @@
 
 #include "common/clearance_along.hpp"
 #include "common/config_fwd.hpp"
+#include "common/facing.hpp"
 #include "common/flight_mode.hpp"
 #include "common/geometry.hpp"
+#include "control/faced_path.hpp"
 #include "control/path_carrot.hpp"
 #include "control/reference.hpp"
 #include "control/yaw_reference.hpp"
@@ -48,11 +50,12 @@ class PathFollower {
   void reset(const Eigen::Vector3d& position_odom_m, double yaw_odom_rad);
 
   /// Replaces the path. The points are in odom, the last one is the goal; an empty path stops. If the reference is off
-  /// the first line, it joins the nearest point of the first lines. Near the goal it turns to `goal_yaw_odom_rad`.
-  /// Where the smooth lines onto the path come nearer to something than the path that they leave out, by
-  /// `clearance_odom_m`, the reference brakes first and takes the shortest ones.
+  /// the first line, it joins the nearest point of the first lines. The yaw follows the facings, which were planned
+  /// along the path; without any it turns to `goal_yaw_odom_rad`, or stays. Where the smooth lines onto the path come
+  /// nearer to something than the path that they leave out, by `clearance_odom_m`, the reference brakes first and takes
+  /// the shortest ones.
   void setPath(std::vector<Eigen::Vector3d> points_odom_m, common::FlightMode mode,
-               std::optional<double> goal_yaw_odom_rad = std::nullopt,
+               std::optional<double> goal_yaw_odom_rad = std::nullopt, std::vector<common::Facing> facings_odom = {},
                const common::ClearanceAlong& clearance_odom_m = {});
   /// Leaves the path and flies at that velocity and yaw until the next command. The velocity changes along a straight
   /// line by `acceleration_m_s2`, so it may reverse at once.
@@ -85,17 +88,22 @@ class PathFollower {
 
   /// Greatest speed in that mode, with the present share.
   double speed_m_s(common::FlightMode mode) const { return speed_share_ * config_.limits(mode).speed_m_s; }
-  double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
-    return 0.5 * speed_m_s * speed_m_s / (acceleration_share_ * config_.limits(mode).acceleration_m_s2);
+  double acceleration_m_s2(common::FlightMode mode) const {
+    return acceleration_share_ * config_.limits(mode).acceleration_m_s2;
   }
+  double brakingDistance_m(common::FlightMode mode, double speed_m_s) const {
+    return 0.5 * speed_m_s * speed_m_s / acceleration_m_s2(mode);
+  }
+  double yawRate_rad_s() const { return config_.yaw_rate_deg_s * common::kRadPerDeg; }
 
  private:
   const Limits& limits() const { return config_.limits(mode_); }
   double climbSpeed_m_s() const;
   /// The carrot begins at the first of the points, at rest.
   void lay(std::vector<Eigen::Vector3d> points, double acceleration_m_s2);
-  /// The least of the limits of the mode, of the reactive layer, of the climb and of the view.
+  /// The least of the limits of the mode, of the reactive layer, of the climb and of the planned yaws.
   double allowedSpeed_m_s() const;
+  double speedForNose_m_s() const;
   void pullReference(const Carrot& carrot, double dt_s);
 
   Config config_;
@@ -104,6 +112,7 @@ class PathFollower {
   double pace_m_s_;
   double speed_share_ = 1.0, acceleration_share_ = 1.0;
   PathCarrot carrot_;
+  FacedPath faced_;
   std::optional<VelocityCarrot> velocity_carrot_;  ///< Flown instead of the path.
   bool follows_path_ = false;  ///< The lines are a path that was set, not the braking distance of a stop.
   YawReference yaw_;

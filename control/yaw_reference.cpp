@@ -16,13 +16,8 @@ constexpr double kLeastLook_m = 0.05;
 }  // namespace
 
 void YawReference::hold(double yaw_odom_rad) {
-  setGoal(std::nullopt, false);
+  setGoal(std::nullopt);
   hold_odom_rad_ = yaw_odom_rad;
-}
-
-void YawReference::setGoal(std::optional<double> yaw_odom_rad, bool faces_travel) {
-  goal_odom_rad_ = yaw_odom_rad;
-  faces_travel_ = faces_travel;
 }
 
 void YawReference::turn(double yaw_rad) {
@@ -33,9 +28,8 @@ bool YawReference::reached(double yaw_odom_rad) const {
   return !goal_odom_rad_ || std::abs(common::wrapAngle(*goal_odom_rad_ - yaw_odom_rad)) <= kReached_rad;
 }
 
-void YawReference::advance(Reference& reference, const std::optional<Eigen::Vector3d>& ahead_odom_m, bool looks,
-                           double dt_s) {
-  double turns_rad_s = 0.0;  // The rate of the bearing of a point that the vehicle flies past.
+void YawReference::advance(Reference& reference, const std::optional<PlannedYaw>& planned, bool looks, double dt_s) {
+  double turns_rad_s = 0.0;  // The rate of what is faced: of the bearing of a point that the vehicle flies past.
   if (look_at_odom_m_ && looks) {
     const Eigen::Vector2d look = *look_at_odom_m_ - reference.position_odom_m.head<2>();
     if (look.norm() > kLeastLook_m) {
@@ -43,9 +37,9 @@ void YawReference::advance(Reference& reference, const std::optional<Eigen::Vect
       const Eigen::Vector3d& velocity = reference.velocity_odom_m_s;
       turns_rad_s = (look.y() * velocity.x() - look.x() * velocity.y()) / look.squaredNorm();
     }
-  } else if (faces_travel_ && ahead_odom_m) {
-    const Eigen::Vector2d look = (*ahead_odom_m - reference.position_odom_m).head<2>();
-    if (look.norm() > kLeastLook_m) hold_odom_rad_ = std::atan2(look.y(), look.x());
+  } else if (planned) {
+    hold_odom_rad_ = planned->yaw_odom_rad;
+    turns_rad_s = planned->rate_rad_s;
   } else if (goal_odom_rad_) {
     hold_odom_rad_ = *goal_odom_rad_;
   }

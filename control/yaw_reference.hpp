@@ -9,33 +9,37 @@
 
 namespace swiftlet::control {
 
-/// The nose faces, in this order: a point, the travel of a long path, the yaw of the goal, or what it faced before.
+/// A yaw that was planned along the path, and how fast it turns.
+struct PlannedYaw {
+  double yaw_odom_rad = 0.0;
+  double rate_rad_s = 0.0;
+};
+
+/// The nose faces, in this order: a point, what was planned along the path, the yaw of the goal, or what it faced
+/// before.
 class YawReference {
  public:
   explicit YawReference(double most_deg_s) : most_deg_s_(most_deg_s) {}
 
-  /// Ends the turn to a goal and the facing of the travel, and keeps that yaw.
+  /// Ends the turn to a goal, and keeps that yaw.
   void hold(double yaw_odom_rad);
-  void setGoal(std::optional<double> yaw_odom_rad, bool faces_travel);
+  void setGoal(std::optional<double> yaw_odom_rad) { goal_odom_rad_ = yaw_odom_rad; }
   /// While it is set, the nose faces that point.
   void lookAt(const std::optional<Eigen::Vector2d>& point_odom_m) { look_at_odom_m_ = point_odom_m; }
   /// Turns the goal, after T_map_odom has jumped.
   void turn(double yaw_rad);
 
-  /// The nose faces where the path leads.
-  bool facesTravel() const { return faces_travel_ && !look_at_odom_m_; }
+  bool facesPoint() const { return look_at_odom_m_.has_value(); }
   /// `yaw_odom_rad` is that of the goal, if there is one.
   bool reached(double yaw_odom_rad) const;
 
-  /// Turns the yaw of the reference by one tick. `ahead_odom_m` is a point of the path to face, nullopt near its goal.
-  /// `looks`: the point of lookAt() counts.
-  void advance(Reference& reference, const std::optional<Eigen::Vector3d>& ahead_odom_m, bool looks, double dt_s);
+  /// Turns the yaw of the reference by one tick. `looks`: the point of lookAt() counts.
+  void advance(Reference& reference, const std::optional<PlannedYaw>& planned, bool looks, double dt_s);
 
  private:
   double most_deg_s_;
   double hold_odom_rad_ = 0.0;
   std::optional<double> goal_odom_rad_;
-  bool faces_travel_ = false;
   std::optional<Eigen::Vector2d> look_at_odom_m_;
 };
 

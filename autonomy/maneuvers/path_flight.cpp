@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "common/segment.hpp"
+
 namespace swiftlet::autonomy {
 namespace {
 
@@ -23,8 +25,39 @@ Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double sp
   return Eigen::Vector2d::Zero();
 }
 
+/// The laser's field is as wide as the explorer takes it to be: that of its sheet.
+planning::ViewAhead viewOf(const ManeuverSetup& setup) {
+  const auto half_rad = [](double field_deg) { return 0.5 * field_deg * common::kRadPerDeg; };
+  planning::ViewAhead view;
+  view.laser_half_field_rad = half_rad(setup.config.planning.explorer.laser_field_of_view_deg);
+  if (setup.camera != nullptr) view.camera_half_field_rad = half_rad(setup.camera->field_of_view_deg);
+  view.hull_radius_m = setup.desk.hullRadius_m();
+  return view;
+}
+
+void face(control::FlightPath& path, const planning::YawPlanner& planner, const control::FlightController& controller,
+          const common::VehicleState& state) {
+  const control::PathFollower& follower = controller.follower();
+  const control::Reference& reference = follower.reference();
+  planning::YawTask task;
+  task.yaw_rad = reference.yaw_odom_rad + state.T_map_odom.yaw_rad;
+  task.goal_yaw_rad = path.goal_yaw_map_rad;
+  task.start_speed_m_s = reference.velocity_odom_m_s.head<2>().norm();
+  task.speed_m_s = follower.speed_m_s(path.mode);
+  task.acceleration_m_s2 = follower.acceleration_m_s2(path.mode);
+  task.yaw_rate_rad_s = follower.yawRate_rad_s();
+  std::vector<Eigen::Vector2d> points_map_m;
+  for (const Eigen::Vector3d& point : path.points_map_m) points_map_m.emplace_back(point.head<2>());
+  path.facings_map = planner.plan(points_map_m, task);
+}
+
 PathFlight::PathFlight(const ManeuverSetup& setup, common::FlightMode mode)
-    : controller_(setup.controller), desk_(setup.desk), memory_(setup.memory), client_(setup.client), mode_(mode) {}
+    : controller_(setup.controller),
+      desk_(setup.desk),
+      memory_(setup.memory),
+      client_(setup.client),
+      mode_(mode),
+      yaw_planner_(viewOf(setup)) {}
 
 void PathFlight::ask(const ManeuverInput& input, PlanningQuestion question, const perception::PersonWatch* left_out) {
   if (auto* goal = std::get_if<GoalRequest>(&question)) goal->height = heightsOf(memory_, controller_);
@@ -48,7 +81,12 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   const auto cost_map = desk_.costMap();
   if (!cost_map) return;
   if (!plan()) keeper_.clear();  // A plan that is no longer followed is dropped.
+  const bool had = plan() != nullptr && plan()->points_map_m.back() == path.points_map_m.back();
+  const double before_m = common::polylineLength(remaining_map_m());
   if (!keeper_.offer(path, now, mapsOf(*cost_map), state.T_map_body_planar().position_m())) return;
+  if (had)
+    memory_.log.info(now, kFlightSource, "plan replaced",
+                     fmt::format("{:.1f} m to go instead of {:.1f} m", path.length_m, before_m));
   if (path.isInSpace()) {
     if (!memory_.in_space) {
       const auto [lowest, highest] = std::minmax_element(path.heights_m.begin(), path.heights_m.end());
@@ -62,6 +100,7 @@ void PathFlight::offer(const planning::Path& path, common::Time now, const commo
   flown.mode = mode_;
   flown.goal_yaw_map_rad = goal_yaw_map_rad_;
   flown.clearance_m = clearanceAlong(path);
+  face(flown, yaw_planner_, controller_, state);
   (void)controller_.follow(flown);
   pace_m_s_ = std::numeric_limits<double>::infinity();
 }

@@ -13,11 +13,18 @@
 #include "common/flight_mode.hpp"
 #include "common/hysteresis.hpp"
 #include "planning/search/plan_keeper.hpp"
+#include "planning/search/yaw_planner.hpp"
 
 namespace swiftlet::autonomy {
 
 /// A velocity of this size from the first point of a path towards what follows; zero without a path.
 Eigen::Vector2d velocityAlong(std::span<const Eigen::Vector2d> points, double speed_m_s);
+
+/// What the vehicle sees with, for the yaw along its paths.
+planning::ViewAhead viewOf(const ManeuverSetup& setup);
+/// Plans the yaw along the path, from that of the reference on.
+void face(control::FlightPath& path, const planning::YawPlanner& planner, const control::FlightController& controller,
+          const common::VehicleState& state);
 
 /// One thread. A plan lasts as long as the controller follows it: a retreat, a lost estimate or the pilot ends it.
 class PathFlight {
@@ -66,6 +73,7 @@ class PathFlight {
   PlanningClient client_;
   common::FlightMode mode_;
   planning::PlanKeeper keeper_;
+  planning::YawPlanner yaw_planner_;
   double pace_m_s_ = std::numeric_limits<double>::infinity();
   std::optional<double> goal_yaw_map_rad_;
   common::Hysteresis within_{kArrival_s};  ///< The tolerances of the goal.

@@ -120,6 +120,7 @@ void Retrace::follow(const ManeuverInput& input) {
   control::FlightPath flown;
   flown.mode = kMode;
   for (const Eigen::Vector2d& point : straightened(path)) flown.points_map_m.push_back(atItsHeight(point));
+  face(flown, planning::YawPlanner(viewOf(setup_)), setup_.controller, input.state);
   following_ = setup_.controller.follow(flown).has_value();
 }
 

@@ -39,13 +39,20 @@ void DStarLite::siftUp(std::size_t place, Entry entry) {
 }
 
 void DStarLite::siftDown(std::size_t place, Entry entry) {
+  const std::size_t size = heap_.size();
   while (true) {
     const std::size_t first = place * kChildren + 1;
-    if (first >= heap_.size()) break;
+    if (first >= size) break;
     std::size_t least = first;
-    const std::size_t end = std::min(first + kChildren, heap_.size());
-    for (std::size_t child = first + 1; child < end; ++child)
-      if (heap_[child].key < heap_[least].key) least = child;
+    if (first + kChildren <= size) {
+      // Which child is the least cannot be predicted: selected without a branch.
+      const Entry* child = &heap_[first];
+      const std::size_t left = child[1].key < child[0].key ? 1 : 0, right = child[3].key < child[2].key ? 3 : 2;
+      least += child[right].key < child[left].key ? right : left;
+    } else {
+      for (std::size_t child = first + 1; child < size; ++child)
+        if (heap_[child].key < heap_[least].key) least = child;
+    }
     if (heap_[least].key >= entry.key) break;
     heap_[place] = heap_[least];
     vertices_[static_cast<std::size_t>(heap_[place].index)].place = static_cast<std::int32_t>(place);

@@ -1,6 +1,8 @@
 #include "planning/search/dstar_lite.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -9,6 +11,11 @@
 #include "planning/search/admission.hpp"
 
 namespace swiftlet::planning {
+namespace {
+
+constexpr int kFraction = 40;  ///< Bits of DStarLite::reciprocal_ after the point.
+
+}  // namespace
 
 tl::expected<Path, PlanFailure> DStarLite::plan(const CostMap& map, const Eigen::Vector2d& start_map_m,
                                                 const Eigen::Vector2d& goal_map_m) {
@@ -29,7 +36,8 @@ tl::expected<CellPlan, PlanFailure> DStarLite::planCells(const CostMap& map, con
                     map.steps().heights_cm.size() == steps_.heights_cm.size() &&
                     map.steps().cost_per_cm == steps_.cost_per_cm && key_offset_ < kGreatestOffset;
   if (kept) {
-    key_offset_ += static_cast<std::uint32_t>(heuristic(start_, start));
+    const common::CellIndex before = std::exchange(start_offset_, offsetOf(start));
+    key_offset_ += static_cast<std::uint32_t>(heuristic(before, start_offset_));
     start_ = start;
     adoptChanges(map);
   } else {
@@ -50,6 +58,11 @@ void DStarLite::restart(const CostMap& map, int goal) {
   rect_ = map.rect();
   resolution_m_ = map.resolution_m();
   stride_ = map.rect().width();
+  // Exact for every index of the rectangle.
+  constexpr std::uint64_t kOne = std::uint64_t{1} << kFraction;
+  SWIFTLET_CHECK(map.costs().size() * static_cast<std::size_t>(stride_) < kOne, map.costs().size(), stride_);
+  reciprocal_ = (kOne + static_cast<std::uint64_t>(stride_) - 1) / static_cast<std::uint64_t>(stride_);
+  start_offset_ = offsetOf(start_);
   goal_ = goal;
   key_offset_ = 0;
   cost_ = map.costs();
@@ -67,7 +80,8 @@ void DStarLite::restart(const CostMap& map, int goal) {
 }
 
 /// Figure 4, lines 25 to 38, for all edges of all changed cells at once. A changed cell changes its own edges and the
-/// diagonals beside it. All of these start or end among its neighbours.
+/// diagonals beside it. All of these start or end among its neighbours. Nothing leads to a cell that has become lethal,
+/// so its cost is forgotten at once, without a turn in the queue.
 void DStarLite::adoptChanges(const CostMap& map) {
   std::vector<std::int32_t> affected;
   const auto add = [&](std::int32_t index) {
@@ -91,16 +105,39 @@ void DStarLite::adoptChanges(const CostMap& map) {
       if (now[i] == cost_[i] && (heights.empty() || heights[i] == steps_.heights_cm[i])) continue;
       cost_[i] = now[i];
       if (!heights.empty()) steps_.heights_cm[i] = heights[i];
-      touch(static_cast<std::int32_t>(i)).cost = now[i];
       add(static_cast<std::int32_t>(i));
     }
   }
   for (const std::int32_t index : affected) {
-    Vertex& vertex = touch(index);
-    if (index != goal_) vertex.rhs = bestOverNeighbours(index);
-    updateVertex(index, vertex);
-    marked_[static_cast<std::size_t>(index)] = 0;
+    Vertex& vertex = vertices_[static_cast<std::size_t>(index)];
+    if (vertex.generation != generation_) continue;  // Its edges are found when it is touched.
+    vertex.moves = movesFrom(index);
+    if (cost_[static_cast<std::size_t>(index)] == CostMap::kLethal && index != goal_) vertex.g = kInfinity;
   }
+  raiseFrom(affected);
+}
+
+/// Underconsistent vertices, and those that were reached through them, are raised here, each about once. Through the
+/// queue each would be raised by turns with its neighbours, through which it seems to be reached for a while (Ramalingam
+/// and Reps 1996 raise before they lower, too). Vertices whose keys the search did not reach are left to the queue, where
+/// most are never needed again.
+void DStarLite::raiseFrom(std::vector<std::int32_t>& affected) {
+  const Key reach = keyOf(start_, touch(start_));
+  for (std::size_t i = 0; i < affected.size(); ++i) {
+    const std::int32_t index = affected[i];
+    marked_[static_cast<std::size_t>(index)] = 0;
+    if (index == goal_) continue;
+    Vertex& vertex = touch(index);
+    lookAhead(index, vertex);
+    if (vertex.rhs <= vertex.g || keyOf(index, vertex) > reach) continue;
+    vertex.g = kInfinity;
+    forEdges(index, vertex.moves, [&](std::int32_t to, int neighbour, std::int32_t) {
+      if (touch(to).parent != kNeighbours - 1 - neighbour || marked_[static_cast<std::size_t>(to)]) return;
+      marked_[static_cast<std::size_t>(to)] = 1;
+      affected.push_back(to);
+    });
+  }
+  for (const std::int32_t index : affected) updateVertex(index, touch(index));
 }
 
 /// Figure 4, ComputeShortestPath.
@@ -111,44 +148,51 @@ void DStarLite::search() {
     if (top.key >= keyOf(start_, start) && start.rhs <= start.g) return;
     ++expansions_;
     Vertex& vertex = touch(top.index);
-    const Key key = keyOf(top.index, vertex);
-    if (top.key < key) {
+    if (const Key key = keyOf(top.index, vertex); top.key < key)
       siftDown(0, {key, top.index});
-      continue;
-    }
-    if (vertex.g > vertex.rhs) {
-      vertex.g = vertex.rhs;
-      remove(vertex);
-      for (const Edge& edge : edgesOf(top.index)) {
-        Vertex& neighbour = touch(edge.to);
-        if (edge.cost + vertex.g >= neighbour.rhs) continue;
-        neighbour.rhs = edge.cost + vertex.g;
-        updateVertex(edge.to, neighbour);
-      }
-      continue;
-    }
-    const std::int32_t g_old = vertex.g;
-    vertex.g = kInfinity;
-    for (const Edge& edge : edgesOf(top.index)) {
-      Vertex& neighbour = touch(edge.to);
-      if (edge.to == goal_ || neighbour.rhs != edge.cost + g_old) continue;
-      neighbour.rhs = bestOverNeighbours(edge.to);
-      updateVertex(edge.to, neighbour);
-    }
-    updateVertex(top.index, vertex);
+    else if (vertex.g > vertex.rhs)
+      expand(top.index, vertex);
+    else
+      raise(top.index, vertex);
   }
+}
+
+/// The cost of an overconsistent vertex is final: its neighbours are reached through it where that is cheaper.
+void DStarLite::expand(std::int32_t index, Vertex& vertex) {
+  vertex.g = vertex.rhs;
+  remove(vertex);
+  forEdges(index, vertex.moves, [&](std::int32_t to, int neighbour, std::int32_t cost) {
+    Vertex& reached = touch(to);
+    if (cost + vertex.g >= reached.rhs) return;
+    reached.rhs = cost + vertex.g;
+    reached.parent = static_cast<std::uint8_t>(kNeighbours - 1 - neighbour);
+    updateVertex(to, reached);
+  });
+}
+
+/// The cost of an underconsistent vertex is forgotten. Only neighbours whose rhs comes from it change; another one of
+/// the same rhs keeps it.
+void DStarLite::raise(std::int32_t index, Vertex& vertex) {
+  vertex.g = kInfinity;
+  forEdges(index, vertex.moves, [&](std::int32_t to, int neighbour, std::int32_t) {
+    Vertex& child = touch(to);
+    if (child.parent != kNeighbours - 1 - neighbour || to == goal_) return;
+    lookAhead(to, child);
+    updateVertex(to, child);
+  });
+  updateVertex(index, vertex);
 }
 
 CellPath DStarLite::follow(const CostMap& map) {
   CellPath path{map.cellOf(start_)};
   for (std::int32_t at = start_; at != goal_;) {
     std::int32_t best = kInfinity, next = -1;
-    for (const Edge& edge : edgesOf(at)) {
-      const std::int32_t sum = edge.cost + touch(edge.to).g;
-      if (sum >= best) continue;
+    forEdges(at, touch(at).moves, [&](std::int32_t to, int, std::int32_t cost) {
+      const std::int32_t sum = cost + touch(to).g;
+      if (sum >= best) return;
       best = sum;
-      next = edge.to;
-    }
+      next = to;
+    });
     SWIFTLET_CHECK(next >= 0 && path.size() <= vertices_.size(), at, next);
     path.push_back(map.cellOf(next));
     at = next;
@@ -156,52 +200,65 @@ CellPath DStarLite::follow(const CostMap& map) {
   return path;
 }
 
-DStarLite::Vertex& DStarLite::touch(std::int32_t index) {
+inline DStarLite::Vertex& DStarLite::touch(std::int32_t index) {
   Vertex& vertex = vertices_[static_cast<std::size_t>(index)];
   if (vertex.generation != generation_)
-    vertex = {kInfinity, kInfinity, -1, cost_[static_cast<std::size_t>(index)], generation_};
+    vertex = {kInfinity, kInfinity, -1, movesFrom(index), kNone, generation_};
   return vertex;
 }
 
-DStarLite::Edges DStarLite::edgesOf(std::int32_t index) {
-  Edges result;
-  const CostMap::Cost cost = cost_[static_cast<std::size_t>(index)];
-  if (cost == CostMap::kLethal) return result;
+/// None from or to a lethal cell, and no corner is cut.
+std::uint8_t DStarLite::movesFrom(std::int32_t index) const {
   const CostMap::Cost* here = &cost_[static_cast<std::size_t>(index)];
-  const auto add = [&](std::int32_t step, std::int32_t scale) {
-    if (here[step] == CostMap::kLethal) return;
-    const std::int32_t sum = scale * (cost + here[step]) + steps_.cost(index, index + step);
-    result.edges[result.count++] = {index + step, sum};
-  };
-  const bool west = here[-1] != CostMap::kLethal, east = here[1] != CostMap::kLethal;
-  const bool south = here[-stride_] != CostMap::kLethal, north = here[stride_] != CostMap::kLethal;
-  if (south && west) add(-stride_ - 1, scale_.diagonal);
-  if (south) add(-stride_, scale_.straight);
-  if (south && east) add(-stride_ + 1, scale_.diagonal);
-  if (west) add(-1, scale_.straight);
-  if (east) add(1, scale_.straight);
-  if (north && west) add(stride_ - 1, scale_.diagonal);
-  if (north) add(stride_, scale_.straight);
-  if (north && east) add(stride_ + 1, scale_.diagonal);
-  return result;
+  if (*here == CostMap::kLethal) return 0;
+  const auto open = [&](int step) { return here[step] != CostMap::kLethal ? 1u : 0u; };
+  const unsigned south = open(-stride_), west = open(-1), east = open(1), north = open(stride_);
+  const unsigned moves = (south & west & open(-stride_ - 1)) | south << 1 | (south & east & open(-stride_ + 1)) << 2 |
+                         west << 3 | east << 4 | (north & west & open(stride_ - 1)) << 5 | north << 6 |
+                         (north & east & open(stride_ + 1)) << 7;
+  return static_cast<std::uint8_t>(moves);
 }
 
-std::int32_t DStarLite::bestOverNeighbours(std::int32_t index) {
-  std::int32_t best = kInfinity;
-  for (const Edge& edge : edgesOf(index)) best = std::min(best, edge.cost + touch(edge.to).g);
-  return best;
+template <class Visit>
+inline void DStarLite::forEdges(std::int32_t index, std::uint8_t moves, Visit visit) const {
+  const std::array<std::int32_t, kNeighbours> steps{-stride_ - 1, -stride_,     -stride_ + 1, -1,
+                                                    1,            stride_ - 1, stride_,      stride_ + 1};
+  constexpr unsigned kDiagonals = 0b10100101;
+  const std::int32_t cost = cost_[static_cast<std::size_t>(index)];
+  for (unsigned left = moves; left != 0; left &= left - 1) {
+    const int neighbour = std::countr_zero(left);
+    const std::int32_t to = index + steps[static_cast<std::size_t>(neighbour)];
+    const std::int32_t scale = (kDiagonals >> neighbour & 1u) != 0 ? scale_.diagonal : scale_.straight;
+    visit(to, neighbour, scale * (cost + cost_[static_cast<std::size_t>(to)]) + steps_.cost(index, to));
+  }
 }
 
-std::int32_t DStarLite::heuristic(std::int32_t a, std::int32_t b) const {
-  const int dx = std::abs(a % stride_ - b % stride_), dy = std::abs(a / stride_ - b / stride_);
+void DStarLite::lookAhead(std::int32_t index, Vertex& vertex) {
+  vertex.rhs = kInfinity;
+  vertex.parent = kNone;
+  forEdges(index, vertex.moves, [&](std::int32_t to, int neighbour, std::int32_t cost) {
+    const std::int32_t sum = cost + touch(to).g;
+    if (sum >= vertex.rhs) return;
+    vertex.rhs = sum;
+    vertex.parent = static_cast<std::uint8_t>(neighbour);
+  });
+}
+
+inline common::CellIndex DStarLite::offsetOf(std::int32_t index) const {
+  const auto row = static_cast<std::int32_t>(static_cast<std::uint64_t>(index) * reciprocal_ >> kFraction);
+  return {index - row * stride_, row};
+}
+
+inline std::int32_t DStarLite::heuristic(common::CellIndex a, common::CellIndex b) const {
+  const int dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
   const int diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
   return 2 * CostMap::kOpenCost * (scale_.diagonal * diagonal + scale_.straight * straight);
 }
 
-DStarLite::Key DStarLite::keyOf(std::int32_t index, const Vertex& vertex) const {
+inline DStarLite::Key DStarLite::keyOf(std::int32_t index, const Vertex& vertex) const {
   const std::int32_t least = std::min(vertex.g, vertex.rhs);
   if (least >= kInfinity) return UINT64_MAX;
-  const std::uint32_t k1 = static_cast<std::uint32_t>(least + heuristic(start_, index)) + key_offset_;
+  const std::uint32_t k1 = static_cast<std::uint32_t>(least + heuristic(start_offset_, offsetOf(index))) + key_offset_;
   return static_cast<Key>(k1) << 32 | static_cast<std::uint32_t>(least);
 }
 

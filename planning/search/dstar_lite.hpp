@@ -50,38 +50,41 @@ class DStarLite final : public Planner {
   static constexpr std::int32_t kInfinity = 1 << 30;
   using Key = std::uint64_t;  ///< (k1, k2) packed: compares as the pair does.
 
+  /// Neighbours are numbered row by row, so that 7 - i is the direction back from neighbour i.
+  static constexpr int kNeighbours = 8;
+  static constexpr std::uint8_t kNone = kNeighbours;
+
   /// The state of a cell. 16 bytes, so that a row of neighbours shares a cache line.
   struct Vertex {
     std::int32_t g = kInfinity;
     std::int32_t rhs = kInfinity;
-    std::int32_t place = -1;  ///< Position in the heap; -1: not in it.
-    CostMap::Cost cost = CostMap::kLethal;
+    std::int32_t place = -1;       ///< Position in the heap; -1: not in it.
+    std::uint8_t moves = 0;        ///< Bit i: an edge leads to neighbour i.
+    std::uint8_t parent = kNone;   ///< The neighbour whose g gives rhs.
     std::uint16_t generation = 0;  ///< If older than generation_, not touched since the restart.
   };
   struct Entry {
     Key key;
     std::int32_t index;
   };
-  struct Edge {
-    std::int32_t to;
-    std::int32_t cost;
-  };
-  struct Edges {
-    Edge edges[8];
-    int count = 0;
-    const Edge* begin() const { return edges; }
-    const Edge* end() const { return edges + count; }
-  };
 
   void restart(const CostMap& map, int goal);
   void adoptChanges(const CostMap& map);
+  void raiseFrom(std::vector<std::int32_t>& affected);
   void search();
   CellPath follow(const CostMap& map);
 
   Vertex& touch(std::int32_t index);
-  Edges edgesOf(std::int32_t index);
-  std::int32_t bestOverNeighbours(std::int32_t index);
-  std::int32_t heuristic(std::int32_t a, std::int32_t b) const;
+  std::uint8_t movesFrom(std::int32_t index) const;
+  /// Calls `visit(neighbour, its number, cost of the edge)` for each edge of a cell.
+  template <class Visit>
+  void forEdges(std::int32_t index, std::uint8_t moves, Visit visit) const;
+  /// Sets rhs and parent by the neighbours.
+  void lookAhead(std::int32_t index, Vertex& vertex);
+  void expand(std::int32_t index, Vertex& vertex);
+  void raise(std::int32_t index, Vertex& vertex);
+  common::CellIndex offsetOf(std::int32_t index) const;
+  std::int32_t heuristic(common::CellIndex a, common::CellIndex b) const;
   Key keyOf(std::int32_t index, const Vertex& vertex) const;
   void updateVertex(std::int32_t index, Vertex& vertex);
 
@@ -94,9 +97,11 @@ class DStarLite final : public Planner {
   common::CellRect rect_;
   double resolution_m_ = 0.0;
   int stride_ = 0;
+  std::uint64_t reciprocal_ = 0;  ///< 2^40 / stride_, rounded up: divides an index without a division.
   std::int32_t goal_ = -1;
   std::int32_t start_ = -1;
-  std::uint32_t key_offset_ = 0;  ///< k_m of the paper.
+  common::CellIndex start_offset_;  ///< Of the start in the rectangle.
+  std::uint32_t key_offset_ = 0;    ///< k_m of the paper.
   std::uint16_t generation_ = 0;
   std::vector<CostMap::Cost> cost_;  ///< The costs that the search is based on.
   SurfaceSteps steps_;               ///< The steps that it is based on.

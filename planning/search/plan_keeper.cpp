@@ -48,7 +48,13 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const PlanMaps& maps,
     advanceTo(position_map_m);
     stamp_ = now;
     const Rest old = rest(maps);
-    if (!old.blocked_map_m && path.cost_m >= old.cost_m * (1.0 - kBetterBy)) return false;
+    if (!old.blocked_map_m) {
+      if (path.cost_m >= old.cost_m * (1.0 - kBetterBy)) return false;
+      if (isLeftSoonBy(path)) {
+        if (left_ && (now - *left_).seconds() < kSteady_s) return false;
+        left_ = now;
+      }
+    }
   }
   path_ = path;
   stamp_ = now;
@@ -57,6 +63,29 @@ bool PlanKeeper::offer(const Path& path, common::Time now, const PlanMaps& maps,
   valid_ = true;
   advanceTo(position_map_m);
   return true;
+}
+
+/// Whether the first kSoon_m of a new plan lead elsewhere than the rest of the present one.
+bool PlanKeeper::isLeftSoonBy(const Path& path) const {
+  // Two plans of one way differ by a cell or two; and as far as the vehicle may be off its plan, each begins elsewhere.
+  constexpr double kElsewhere_m = 0.2, kStep_m = 0.1;
+  const std::vector<Point> old = remaining();
+  const auto off_m = [&](const Point& point) {
+    double least_m = (point - old.front()).norm();
+    for (std::size_t i = 1; i < old.size(); ++i)
+      least_m = std::min(least_m, common::segmentDistance(point, old[i - 1], old[i]));
+    return least_m;
+  };
+  const double allowed_m = std::max(kElsewhere_m, off_m(path.points_map_m.front()));
+  double along_m = 0.0;
+  for (std::size_t i = 1; i < path.points_map_m.size() && along_m < kSoon_m; ++i) {
+    const Point step = path.points_map_m[i] - path.points_map_m[i - 1];
+    const double length_m = step.norm(), until_m = std::min(length_m, kSoon_m - along_m);
+    for (double at_m = 0.0; at_m <= until_m; at_m += kStep_m)
+      if (off_m(path.points_map_m[i - 1] + (length_m > 0.0 ? at_m / length_m : 0.0) * step) > allowed_m) return true;
+    along_m += length_m;
+  }
+  return false;
 }
 
 void PlanKeeper::advanceTo(const Point& position_map_m) {

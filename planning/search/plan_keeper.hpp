@@ -39,8 +39,11 @@ class PlanKeeper {
   Check check(common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m, double braking_m = 0.0);
 
   /// Offers a new plan. Returns true when it is taken: there was no plan, the old one is invalid or for another goal,
-  /// or the new one is cheaper by more than a tenth. In any case the age of the kept plan counts from `now`.
+  /// or the new one is cheaper by more than a tenth. A valid plan is left within its next kSoon_m at most once in
+  /// kSteady_s. In any case the age of the kept plan counts from `now`.
   bool offer(const Path& path, common::Time now, const PlanMaps& maps, const Eigen::Vector2d& position_map_m);
+
+  static constexpr double kSoon_m = 2.0, kSteady_s = 5.0;
 
   void clear();
   /// The plan as it was offered; null without one.
@@ -59,12 +62,14 @@ class PlanKeeper {
   std::size_t remainingEscape() const;
   Rest rest(const PlanMaps& maps) const;
   Rest restInSpace(const PlanMaps& maps) const;
+  bool isLeftSoonBy(const Path& path) const;
 
   std::optional<Path> path_;
   common::Time stamp_;
   std::size_t segment_ = 0;  ///< The vehicle is between points segment_ and segment_ + 1.
   double along_ = 0.0;       ///< Fraction of that segment.
   bool valid_ = false;
+  std::optional<common::Time> left_;  ///< When a valid plan was last left soon.
 };
 
 }  // namespace swiftlet::planning

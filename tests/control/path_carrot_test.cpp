@@ -66,32 +66,32 @@ TEST(VelocityCarrot, ReversesAlongAStraightLine) {
 }
 
 /// The yaw after three seconds of turning from zero, within its rate and acceleration.
-double yawAfter(YawReference& yaw, const std::optional<Eigen::Vector3d>& ahead_m, bool looks) {
+double yawAfter(YawReference& yaw, const std::optional<PlannedYaw>& planned, bool looks) {
   Reference reference;
   for (int i = 0; i < 300; ++i) {
     const double before_rad_s = reference.yaw_rate_rad_s;
-    yaw.advance(reference, ahead_m, looks, kCarrotDt_s);
+    yaw.advance(reference, planned, looks, kCarrotDt_s);
     EXPECT_LE(std::abs(reference.yaw_rate_rad_s), 60.0 * common::kRadPerDeg + 1e-9);
     EXPECT_LE(std::abs(reference.yaw_rate_rad_s - before_rad_s), 1.2 * 180.0 * common::kRadPerDeg * kCarrotDt_s + 1e-9);
   }
   return reference.yaw_odom_rad;
 }
 
-TEST(YawReference, FacesAPointThenTheTravelThenTheGoal) {
+TEST(YawReference, FacesAPointThenWhatIsPlannedThenTheGoal) {
   YawReference yaw(60.0);
-  yaw.setGoal(0.4, true);
-  EXPECT_TRUE(yaw.facesTravel());
-  EXPECT_NEAR(yawAfter(yaw, Eigen::Vector3d(0, 1, 0), true), M_PI / 2.0, 1e-6);
+  yaw.setGoal(0.4);
+  EXPECT_NEAR(yawAfter(yaw, PlannedYaw{M_PI / 2.0, 0.0}, true), M_PI / 2.0, 1e-6);
   EXPECT_NEAR(yawAfter(yaw, std::nullopt, true), 0.4, 1e-6);
+  EXPECT_FALSE(yaw.facesPoint());
   yaw.lookAt(Eigen::Vector2d(1, -1));
-  EXPECT_FALSE(yaw.facesTravel());
-  EXPECT_NEAR(yawAfter(yaw, Eigen::Vector3d(0, 1, 0), true), -M_PI / 4.0, 1e-6);
+  EXPECT_TRUE(yaw.facesPoint());
+  EXPECT_NEAR(yawAfter(yaw, PlannedYaw{M_PI / 2.0, 0.0}, true), -M_PI / 4.0, 1e-6);
   EXPECT_NEAR(yawAfter(yaw, std::nullopt, false), 0.4, 1e-6) << "a velocity has a yaw of its own";
 }
 
 TEST(YawReference, ItsGoalTurnsWithTheMap) {
   YawReference yaw(60.0);
-  yaw.setGoal(0.4, false);
+  yaw.setGoal(0.4);
   yaw.turn(0.2);
   EXPECT_FALSE(yaw.reached(0.4));
   EXPECT_TRUE(yaw.reached(0.6));

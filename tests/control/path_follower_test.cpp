@@ -83,9 +83,9 @@ TEST(PathFollower, FacesAPointWhileItFliesPastAndWhileItHolds) {
   EXPECT_LT(worst_rad, 0.02);
   EXPECT_LE(watch.worst_speed_m_s, 0.301) << "it does not wait for its nose";
   watch.follower.lookAt(std::nullopt);
-  watch.follower.setPath({{4, 0, 0}, {0, 0, 0}}, FlightMode::kFast);
+  watch.follower.setPath({{4, 0, 0}, {0, 0, 0}}, FlightMode::kFast, std::nullopt, {{{4, 0}, 3.0}, {{0, 0}, 3.0}});
   for (int i = 0; i < 400; ++i) watch.step();
-  EXPECT_GT(std::abs(watch.follower.reference().yaw_odom_rad), 3.0) << "along its path again";
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 3.0, 0.02) << "as planned again";
 }
 
 TEST(PathFollower, AStraightLineHasATrapezoidalSpeedProfile) {
@@ -192,26 +192,85 @@ TEST(PathFollower, ASpeedLimitTakesEffectWithinTheBrakingTime) {
   EXPECT_TRUE(watch.finish());
 }
 
-TEST(PathFollower, FacesItsCourseOnLongPathsAndKeepsTheYawOnShortOnes) {
-  Watch watch;
-  watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast);
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02);
-  EXPECT_LE(watch.worst_yaw_rate * 180 / std::numbers::pi, 60.1);
-  watch.seconds = 0;
-  watch.follower.setPath({{0, 4, 0}, {-0.3, 4, 0}}, FlightMode::kFast);
-  ASSERT_TRUE(watch.finish());
-  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, std::numbers::pi / 2, 0.02) << "sideways";
+/// Facings from a yaw to another, evenly along a straight path in the plane.
+std::vector<common::Facing> evenly(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double yaw_rad,
+                                   double end_yaw_rad, double speed_m_s = std::numeric_limits<double>::infinity()) {
+  constexpr int kStretches = 20;
+  std::vector<common::Facing> facings;
+  for (int i = 0; i <= kStretches; ++i) {
+    const double share = static_cast<double>(i) / kStretches;
+    facings.push_back({from + share * (to - from), yaw_rad + share * (end_yaw_rad - yaw_rad), speed_m_s});
+  }
+  return facings;
 }
 
-TEST(PathFollower, FliesSlowlyOutsideTheViewOfTheLaser) {
+TEST(PathFollower, FliesTheYawThatWasPlannedAlongItsPath) {
   Watch watch;
-  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast);
-  while (std::abs(watch.follower.reference().yaw_odom_rad) < 75 * std::numbers::pi / 180) {
+  watch.follower.setPath({{0, 0, 0}, {0, 4, 0}}, FlightMode::kFast, 1.2, evenly({0, 0}, {0, 4}, 0.0, 1.2));
+  double worst_rad = 0.0;
+  while (!watch.follower.finished() && watch.seconds < 60) {
+    watch.step();
+    const Reference& reference = watch.follower.reference();
+    // The nose leads by a stretch, 0.2 m.
+    const double planned_rad = std::min(1.2, (reference.position_odom_m.y() + 0.2) / 4.0 * 1.2);
+    worst_rad = std::max(worst_rad, std::abs(reference.yaw_odom_rad - planned_rad));
+  }
+  EXPECT_TRUE(watch.follower.finished());
+  EXPECT_LT(worst_rad, 0.07);
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.01);
+  EXPECT_LE(watch.worst_yaw_rate * 180 / std::numbers::pi, 60.1);
+  watch.seconds = 0;
+  watch.follower.setPath({{0, 4, 0}, {-3, 4, 0}}, FlightMode::kFast);
+  ASSERT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 1.2, 0.02) << "nothing is planned: it stays";
+}
+
+TEST(PathFollower, WaitsForItsNoseWhereThatWasPlanned) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, -3.1, -3.1);
+  facings.front().yaw_rad = 0.0;
+  facings.front().speed_m_s = 0.05;  // 0.2 m in 4 s, in which the nose turns round.
+  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast, std::nullopt, facings);
+  while (std::abs(watch.follower.reference().yaw_odom_rad) < 2.8 && watch.seconds < 10) {
     watch.step();
     EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.2);
   }
+  EXPECT_LT(watch.follower.reference().position_odom_m.norm(), 0.3);
   EXPECT_TRUE(watch.finish());
+}
+
+TEST(PathFollower, ANoseThatFacedSomethingElseIsWaitedFor) {
+  Watch watch;
+  watch.follower.lookAt(Eigen::Vector2d(-100, -1));
+  for (int i = 0; i < 400; ++i) watch.step();
+  watch.follower.setPath({{0, 0, 0}, {6, 0, 0}}, FlightMode::kFast, std::nullopt, evenly({0, 0}, {6, 0}, 0.0, 0.0));
+  for (int i = 0; i < 200; ++i) watch.step();
+  EXPECT_GT(watch.follower.reference().velocity_odom_m_s.norm(), 0.9) << "not while it faces a point";
+  watch.follower.lookAt(std::nullopt);
+  for (int i = 0; i < 150; ++i) watch.step();
+  EXPECT_LT(watch.follower.reference().velocity_odom_m_s.norm(), 0.25);
+  EXPECT_TRUE(watch.finish());
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 0.0, 0.02);
+}
+
+TEST(PathFollower, AClimbDoesNotWaitForTheNose) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, 2.5, 2.5);
+  facings.front() = {{0, 0}, 0.0, 0.06};
+  watch.follower.setPath({{0, 0, 1}, {0, 0, 2}, {-4, 0, 2}}, FlightMode::kFast, std::nullopt, facings);
+  for (int i = 0; i < 400; ++i) watch.step();
+  EXPECT_GT(watch.follower.reference().position_odom_m.z(), 1.8);
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 2.5, 0.02);
+}
+
+TEST(PathFollower, TheNoseTurnsAlthoughTheVehicleIsHeldUp) {
+  Watch watch;
+  std::vector<common::Facing> facings = evenly({0, 0}, {-4, 0}, 2.5, 2.5);
+  facings.front() = {{0, 0}, 0.0, 0.06};
+  watch.follower.setPath({{0, 0, 0}, {-4, 0, 0}}, FlightMode::kFast, std::nullopt, facings);
+  watch.follower.setSpeedLimit(0.0);  // The reactive layer does not see where it would fly.
+  for (int i = 0; i < 400; ++i) watch.step();
+  EXPECT_NEAR(watch.follower.reference().yaw_odom_rad, 2.5, 0.02);
 }
 
 TEST(PathFollower, AMapCorrectionMovesThePathButNotTheReference) {
@@ -258,7 +317,7 @@ double leastInTurn_m(const Things& things, bool asks, double& seconds) {
   watch.seconds = 0.0;
   watch.worst_jump_m = 0.0;
   watch.follower.setPath({here, here + Eigen::Vector3d(0, 3, 0)}, FlightMode::kFast, std::nullopt,
-                         asks ? moved.along(0.325) : common::ClearanceAlong());
+                         {}, asks ? moved.along(0.325) : common::ClearanceAlong());
   double least_m = std::numeric_limits<double>::infinity();
   while (!watch.follower.finished() && watch.seconds < 60.0) {
     watch.step();
@@ -294,7 +353,7 @@ TEST(PathFollower, JoinsAtTheNearestPlaceWhereTheLineAheadIsNotFree) {
   for (const bool asks : {false, true}) {
     Watch watch({0, 0.8, 0});
     watch.follower.setPath({{0, 0, 0}, {3, 0, 0}}, FlightMode::kCareful, std::nullopt,
-                           asks ? thing.along(0.325) : common::ClearanceAlong());
+                           {}, asks ? thing.along(0.325) : common::ClearanceAlong());
     double least_m = 10.0;
     while (!watch.follower.finished() && watch.seconds < 60.0) {
       watch.step();
@@ -317,7 +376,7 @@ TEST(PathFollower, NeverComesNearerForAsking) {
       while (watch.follower.reference().position_odom_m.x() < 0.0) watch.step();
       const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
       watch.follower.setPath({here, here + 3.0 * Eigen::Vector3d(std::cos(turn_rad), std::sin(turn_rad), 0)},
-                             FlightMode::kFast, std::nullopt, asks ? things.along(0.325) : common::ClearanceAlong());
+                             FlightMode::kFast, std::nullopt, {}, asks ? things.along(0.325) : common::ClearanceAlong());
       double least_m = 0.325;
       while (!watch.follower.finished() && watch.seconds < 60.0) {
         watch.step();

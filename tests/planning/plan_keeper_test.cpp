@@ -164,6 +164,41 @@ TEST_F(PlanKeeping, DoesNotAlternateBetweenTwoEqualPaths) {
   EXPECT_NEAR(position.x(), 10.0, 0.2);
 }
 
+/// The first 2 m lead elsewhere at most once in 5 s while the plan stays valid, however the costs elsewhere change.
+TEST_F(PlanKeeping, AValidPlanIsLeftSoonAtMostOnceInFiveSeconds) {
+  const Point start{2, 4};
+  std::vector<double> left_s;
+  std::vector<Point> before;
+  for (int i = 0; i < 600; ++i) {
+    const bool other = i / 10 % 2 == 1;
+    // Plans that lead to the left and to the right by turns, each a fifth cheaper than the last.
+    Path offered = pathOf(map, {start, {3.5, other ? 2.0 : 6.0}, {6, other ? 2.0 : 6.0}, {7, 4}});
+    const Time now = at(i * 0.1);
+    (void)keeper.check(now, map, start);
+    if (keeper.plan() != nullptr) offered.cost_m = 0.8 * pathOf(map, keeper.remaining()).cost_m;
+    keeper.offer(offered, now, map, start);
+    if (!before.empty() && keeper.plan()->points_map_m[1] != before[1]) left_s.push_back(now.seconds());
+    before = keeper.plan()->points_map_m;
+  }
+  EXPECT_GE(left_s.size(), 5U) << "it may be left";
+  for (std::size_t i = 1; i < left_s.size(); ++i) EXPECT_GE(left_s[i] - left_s[i - 1], 5.0 - 1e-9);
+}
+
+TEST_F(PlanKeeping, ACheaperPlanThatBeginsAlikeIsTakenAtAnyTime) {
+  keeper.offer(pathOf(map, {{2, 4}, {5, 4}, {8, 7.5}, {10, 4}}), at(0), map, {2, 4});
+  EXPECT_TRUE(keeper.offer(pathOf(map, {{2, 4}, {5, 4}, {8, 6}, {10, 4}}), at(0.5), map, {2, 4}));
+  EXPECT_TRUE(keeper.offer(pathOf(map, {{2, 4}, {5, 4}, {10, 4}}), at(1.0), map, {2, 4}));
+}
+
+TEST_F(PlanKeeping, ABlockedPlanIsLeftAtOnceAgain) {
+  keeper.offer(pathOf(map, {{2, 4}, {4, 6.5}, {10, 4}}), at(0), map, {2, 4});
+  ASSERT_TRUE(keeper.offer(straight, at(0.5), map, {2, 4}));
+  test::fill(grid, {{80, 70}, {84, 90}}, test::kWallCell);
+  map.update(grid.snapshot(), {});
+  EXPECT_FALSE(keeper.check(at(0.6), map, {2, 4}).valid);
+  EXPECT_TRUE(keeper.offer(pathOf(map, {{2, 4}, {4, 6.5}, {10, 4}}), at(0.6), map, {2, 4}));
+}
+
 /// 12 x 8 x 2 m that are free but for a beam at x = 6 m, 0.9 to 1.2 m high, and what else is drawn.
 HullSpace spaceWithABeam(bool blocked_below) {
   common::VoxelMap voxels(0.1);

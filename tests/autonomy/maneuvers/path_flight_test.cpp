@@ -43,6 +43,30 @@ TEST_F(PathFlightTest, FliesAnOfferedPlanInItsModeAtTheFlightHeight) {
   EXPECT_NEAR(state_.T_odom_body.position_m.z(), 1.2, 0.02);
 }
 
+TEST_F(PathFlightTest, FliesTheYawThatIsPlannedAlongThePath) {
+  const auto yaw_rad = [this] { return state_.T_map_body_planar().yaw_rad; };
+  flight_.offer(straight({1.5, 2.0}, {1.4, 2.0}), now_, state_);
+  runUntil([this] { return controller_.follower().finished(); }, 20.0);
+  EXPECT_NEAR(yaw_rad(), 0.0, 0.02) << "0.1 m backwards";
+  flight_.setGoalYaw(2.5);
+  flight_.offer(straight({1.4, 2.0}, {1.4, 5.0}), now_, state_);
+  runUntil([this] { return position_m().y() > 3.5; }, 20.0);
+  EXPECT_NEAR(yaw_rad(), 1.57, 0.45) << "the nose leads";
+  runUntil([this] { return controller_.follower().remaining_m() < 0.01; }, 20.0);
+  EXPECT_NEAR(yaw_rad(), 2.5, 0.1) << "and is where the goal wants it";
+}
+
+TEST_F(PathFlightTest, SaysWhenACheaperPlanReplacesAValidOne) {
+  flight_.offer(straight({1.5, 2.0}, {5.0, 2.0}), now_, state_);
+  (void)memory_log_.take();
+  planning::Path cheaper = straight({1.5, 2.0}, {5.0, 2.0});
+  cheaper.cost_m *= 0.5;
+  flight_.offer(cheaper, now_, state_);
+  EXPECT_EQ(lastEvent().text, "plan replaced");
+  flight_.offer(straight({1.5, 2.0}, {4.0, 2.0}), now_, state_);
+  EXPECT_EQ(lastEvent().text, "nothing") << "another goal";
+}
+
 TEST_F(PathFlightTest, KeepsAPlanUnlessAnotherIsClearlyBetterOrItIsReleased) {
   planning::Path path = straight({1.5, 2.0}, {5.0, 2.0});
   flight_.offer(path, now_, state_);
