@@ -12,7 +12,7 @@
 namespace swiftlet::perception {
 namespace {
 
-constexpr int kCheckStep_px = 4;
+constexpr int kCheckStep_px = 2;
 /// A depth is that of the shape within three standard deviations and this much: plaster, beams, the fit itself.
 constexpr double kOnShape_m = 0.12;
 /// What stands between these distances beside the shape would be a part of a larger house.
@@ -20,12 +20,15 @@ constexpr double kBesideFrom_m = 0.08, kBeside_m = 0.35, kBesideHeight_m = 0.4;
 /// Faces are sampled on a grid of this size.
 constexpr double kFaceGrid_m = 0.25;
 /// Medians of fewer points are noise.
-constexpr std::size_t kFacePoints = 25;
+constexpr std::size_t kFacePoints = 100;
 
 /// Of the limits: docs/recognition.md, section "House".
-constexpr int kLeastOn = 120;
+constexpr int kLeastOn = 500;
 constexpr double kRoofThrough = 0.02, kWallThrough = 0.45, kBesideShare = 0.02, kHiddenShare = 0.5;
-constexpr double kLeastInView = 0.75, kFaceOff_m = 0.10, kGroundOff_m = 0.12;
+/// Of the strips at an end of the roof.
+constexpr double kEndStrip_m = 0.3, kThroughShare = 0.3, kBeyondShare = 0.12;
+constexpr int kEndLeast = 12;
+constexpr double kLeastInView = 0.75, kFaceOff_m = 0.10, kSlopeOff_m = 0.045, kGroundOff_m = 0.12;
 
 bool isAtChimney(const Eigen::Vector3d& at, const HouseModel& model) {
   constexpr double kAround_m = 0.2;
@@ -86,7 +89,39 @@ double inViewShare(const HousePose& pose, const HouseModel& model, const HouseBo
   return all > 0.0 ? seen / all : 0.0;
 }
 
+/// The same roof, going on at each end.
+HouseModel grown(HouseModel model) {
+  constexpr double kBy_m = kBesideFrom_m + kEndStrip_m;
+  model.eaves_m = model.roofAt_m(0.5 * model.width_m + kBy_m);
+  model.length_m += 2.0 * kBy_m;
+  model.width_m += 2.0 * kBy_m;
+  return model;
+}
+
+/// Adds one to the count of every end in whose strip the place is: inside the roof, or beyond it.
+void countAtEnds(const Eigen::Vector3d& at, const HouseModel& model, int HouseEnd::*count, bool beyond,
+                 std::array<HouseEnd, 4>& ends) {
+  const double x_m = std::abs(at.x()) - 0.5 * model.length_m, y_m = std::abs(at.y()) - 0.5 * model.width_m;
+  const auto inStrip = [&](double off_m) {
+    return beyond ? off_m > kBesideFrom_m && off_m < kBesideFrom_m + kEndStrip_m : off_m < 0.0 && off_m > -kEndStrip_m;
+  };
+  // Beyond a corner is beyond no end.
+  if (inStrip(x_m) && y_m < 0.0) ++(ends[at.x() > 0.0 ? 0 : 1].*count);
+  if (inStrip(y_m) && x_m < 0.0) ++(ends[at.y() > 0.0 ? 2 : 3].*count);
+}
+
 }  // namespace
+
+bool HouseEnd::isSeen() const {
+  // A roof that returns nothing ends where the camera sees past it.
+  const bool shown =
+      (on >= kEndLeast && on >= unmeasured) || (on + unmeasured >= kEndLeast && free >= kEndLeast);
+  return shown && !isElsewhere();
+}
+bool HouseEnd::isElsewhere() const {
+  const int least = std::max(kEndLeast, on);
+  return through > kThroughShare * least || beyond > kBeyondShare * least;
+}
 
 double HouseEvidence::share() const {
   const int all = on + roof_through + beside + before;
@@ -94,7 +129,7 @@ double HouseEvidence::share() const {
 }
 
 HouseEvidence evidenceFor(const HousePose& pose, const HouseModel& model, const DepthView& view, double ground_m) {
-  const HouseBody body(model);
+  const HouseBody body(model), larger(grown(model));
   const Eigen::Vector3d camera_m = pose.inHouse_m(Eigen::Vector3d::Zero());
   const Eigen::Matrix3d R_house_level =
       Eigen::AngleAxisd(-pose.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -102,31 +137,50 @@ HouseEvidence evidenceFor(const HousePose& pose, const HouseModel& model, const 
   evidence.ground_off_m = std::abs(pose.position_m.z() - ground_m);
   evidence.in_view = inViewShare(pose, model, body, view);
   std::array<std::vector<double>, kHouseFaces> off_m;
+  std::array<std::array<std::vector<double>, 2>, 2> roof_off_m;  // Of the lower and the upper third of both roofs.
   for (int v = 0; v < view.camera.height_px; v += kCheckStep_px)
     for (int u = 0; u < view.camera.width_px; u += kCheckStep_px) {
       const float measured = view.depth.at(u, v);
-      if (measured <= 0.0F) continue;
-      const Eigen::Vector3d ray_level = view.ray(u, v), ray = R_house_level * ray_level;
+      const Eigen::Vector3d ray = R_house_level * view.ray(u, v);
+      const auto entry = body.enteredBy(camera_m, ray);
+      const bool reached = entry && entry->depth_m <= view.range_max_m;
+      if (measured <= 0.0F) {
+        if (reached && isRoof(entry->face))
+          countAtEnds(camera_m + entry->depth_m * ray, model, &HouseEnd::unmeasured, false, evidence.ends);
+        continue;
+      }
       // What is too far is behind everything.
       const double depth_m = common::isMeasured(measured) ? static_cast<double>(measured) : 1e3;
       const double sigma_m = std::min(1.0, depth_m * depth_m * view.inverse_depth_sigma_1_m) * ray.norm();
       const Eigen::Vector3d at = camera_m + depth_m * ray;
-      const auto entry = body.enteredBy(camera_m, ray);
       if (isAtChimney(at, model)) {
         ++evidence.on;
         continue;
       }
-      if (!entry || entry->depth_m > view.range_max_m) {
+      if (!reached) {
         if (isBeside(at, model)) ++evidence.beside;
+        const auto wider = larger.enteredBy(camera_m, ray);
+        if (!wider || !isRoof(wider->face) || wider->depth_m > view.range_max_m) continue;
+        const bool farther = depth_m > wider->depth_m + kOnShape_m + 3.0 * sigma_m;
+        countAtEnds(camera_m + wider->depth_m * ray, model, farther ? &HouseEnd::free : &HouseEnd::beyond, true,
+                    evidence.ends);
         continue;
       }
+      const Eigen::Vector3d on_shape = camera_m + entry->depth_m * ray;
       const double off = body.off_m(at, entry->face);
       const double along = std::abs(body.faces()[static_cast<std::size_t>(entry->face)].normal.dot(ray.normalized()));
       if (std::abs(off) < kOnShape_m + 3.0 * along * sigma_m) {
         ++evidence.on;
         off_m[static_cast<std::size_t>(entry->face)].push_back(off);
+        if (!isRoof(entry->face)) continue;
+        countAtEnds(on_shape, model, &HouseEnd::on, false, evidence.ends);
+        const double up = 1.0 - std::abs(on_shape.y()) / (0.5 * model.width_m);
+        auto& roof = roof_off_m[static_cast<std::size_t>(entry->face - kRoofLeft)];
+        if (up < 1.0 / 3.0) roof[0].push_back(off);
+        if (up > 2.0 / 3.0) roof[1].push_back(off);
       } else if (depth_m > entry->depth_m) {
         ++(isRoof(entry->face) ? evidence.roof_through : evidence.wall_through);
+        if (isRoof(entry->face)) countAtEnds(on_shape, model, &HouseEnd::through, false, evidence.ends);
       } else if (isBeside(at, model)) {
         ++evidence.beside;
       } else {
@@ -136,14 +190,25 @@ HouseEvidence evidenceFor(const HousePose& pose, const HouseModel& model, const 
   for (const std::vector<double>& face : off_m)
     if (face.size() >= kFacePoints)
       evidence.face_off_m = std::max(evidence.face_off_m, std::abs(common::quantile(face, 0.5)));
+  for (const auto& roof : roof_off_m)
+    if (std::min(roof[0].size(), roof[1].size()) >= kFacePoints)
+      evidence.slope_off_m = std::max(evidence.slope_off_m, std::abs(common::quantile(roof[1], 0.5) -
+                                                                     common::quantile(roof[0], 0.5)));
   return evidence;
+}
+
+/// Both gables, and one of the eaves: the other may be behind the ridge, whose place the slope tells.
+bool endsWhereItShould(const std::array<HouseEnd, 4>& ends) {
+  const bool elsewhere =
+      std::any_of(ends.begin(), ends.end(), [](const HouseEnd& end) { return end.isElsewhere(); });
+  return !elsewhere && ends[0].isSeen() && ends[1].isSeen() && (ends[2].isSeen() || ends[3].isSeen());
 }
 
 bool isThatHouse(const HouseEvidence& evidence) {
   const int on = evidence.on;
-  return on >= kLeastOn && evidence.in_view >= kLeastInView && evidence.roof_through <= kRoofThrough * on &&
+  return endsWhereItShould(evidence.ends) && on >= kLeastOn && evidence.in_view >= kLeastInView && evidence.roof_through <= kRoofThrough * on &&
          evidence.wall_through <= kWallThrough * on && evidence.beside <= kBesideShare * on &&
-         evidence.before <= kHiddenShare * on && evidence.face_off_m <= kFaceOff_m &&
+         evidence.before <= kHiddenShare * on && evidence.face_off_m <= kFaceOff_m && evidence.slope_off_m <= kSlopeOff_m &&
          evidence.ground_off_m <= kGroundOff_m;
 }
 

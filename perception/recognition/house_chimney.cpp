@@ -26,6 +26,8 @@ constexpr double kOutlineSigma_px = 1.0;
 constexpr double kChimneyOff_m = 0.15;
 /// Least evidence where the chimney is, and how much more that must be than at the other end.
 constexpr double kLeastEvidence = 0.8, kMoreEvidence = 0.35;
+/// A chimney farther from its fitted place is that of another house, or something else.
+constexpr double kOutOfPlace_m = 0.2;
 /// Variance of a grey value: in a picture without contrast nothing correlates.
 constexpr double kGrayVariance = 4.0;
 
@@ -188,7 +190,10 @@ std::optional<HouseWithChimney> fusedWithChimney(const HousePose& pose, const Ho
   const double at_here = here ? here->evidence() : 0.0, at_there = there ? there->evidence() : 0.0;
   const double more = std::abs(at_here - at_there);
   if (std::max(at_here, at_there) < kLeastEvidence || more < kMoreEvidence) return std::nullopt;
-  return HouseWithChimney{at_here > at_there ? fused(pose, *here) : fused(turned, *there), std::min(1.0, more)};
+  const bool is_here = at_here > at_there;
+  const ChimneyMatch& chimney = is_here ? *here : *there;
+  if (chimney.moved_m.norm() > kOutOfPlace_m) return std::nullopt;
+  return HouseWithChimney{fused(is_here ? pose : turned, chimney), std::min(1.0, more)};
 }
 
 }  // namespace swiftlet::perception

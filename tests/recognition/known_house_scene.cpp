@@ -1,5 +1,6 @@
 #include "tests/recognition/known_house_scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -58,11 +59,10 @@ class KnownHouseBuilder {
   }
 
   KnownHouseScene build(HouseLook look, bool other) {
-    scene_.other = other;
     scene_.model = drawModel();
     scene_.T_world_house = {inAngles(0.0, 0.0, random_.uniform(-std::numbers::pi, std::numbers::pi)),
                             {random_.uniform(-1.0, 1.0), random_.uniform(-1.0, 1.0), 0.0}};
-    const HouseModel built = other ? drawOther() : scene_.model;
+    const HouseModel built = scene_.built = other ? drawOther() : scene_.model;
     const double bearing_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
     layYard(built, bearing_rad);
     layWalls(built);
@@ -101,6 +101,8 @@ class KnownHouseBuilder {
       other.ridge_m += higher_m;
       other.chimney_top_m += higher_m;
     }
+    const double half_m = 0.5 * (other.width_m - other.chimney_side_m);
+    other.chimney_y_m = std::clamp(other.chimney_y_m, -half_m, half_m);
     other.chimney_x_m = std::min(other.chimney_x_m, 0.5 * (other.length_m - other.chimney_side_m));
     return other;
   }

@@ -23,7 +23,7 @@ enum class HouseLook {
 struct KnownHouseScene {
   simulation::WorldModel world;
   HouseModel model;  ///< That is looked for.
-  bool other = false;  ///< What stands there has another size.
+  HouseModel built;  ///< That stands there: the same, or one of another size.
   common::Pose3 T_world_house, T_world_camera;
   Eigen::Quaterniond R_level_camera;  ///< With the error of an attitude of half a degree.
   double floor_level_m = 0.0;         ///< Observation::floor_level_m, with an error of 3 cm.
