@@ -27,7 +27,7 @@ constexpr int kLeastOn = 500;
 constexpr double kRoofThrough = 0.02, kWallThrough = 0.45, kBesideShare = 0.02, kHiddenShare = 0.5;
 /// Of the strips at an end of the roof.
 constexpr double kEndStrip_m = 0.3, kThroughShare = 0.3, kBeyondShare = 0.12;
-constexpr int kEndLeast = 12;
+constexpr int kEndLeast = 12, kEdgeLeast = 4;
 constexpr double kLeastInView = 0.75, kFaceOff_m = 0.10, kSlopeOff_m = 0.045, kGroundOff_m = 0.12;
 
 bool isAtChimney(const Eigen::Vector3d& at, const HouseModel& model) {
@@ -119,8 +119,9 @@ bool HouseEnd::isSeen() const {
   return shown && !isElsewhere();
 }
 bool HouseEnd::isElsewhere() const {
-  const int least = std::max(kEndLeast, on);
-  return through > kThroughShare * least || beyond > kBeyondShare * least;
+  // Some pixels at an edge are of either side.
+  return through > std::max<double>(kEndLeast, kThroughShare * on) ||
+         beyond > std::max<double>(kEdgeLeast, kBeyondShare * on);
 }
 
 double HouseEvidence::share() const {
