@@ -103,9 +103,7 @@ std::vector<perception::Recognized> RecognitionPipeline::recognize(perception::K
     observation.picture = &picture;
   }
   observation.frame = placed.frame.get();
-  const common::Pose3 T_map_camera = placed.keys->T_map_level(placed.key) * placed.T_key_camera;
-  observation.R_level_camera = T_map_camera.rotation;
-  observation.floor_level_m = -T_map_camera.position_m.z();
+  observation.R_level_camera = placed.keys->T_map_level(placed.key).rotation * placed.T_key_camera.rotation;
   std::vector<Eigen::Vector3d> seen_before_m;
   if (scan) {
     observation.scan = scan->scan.get();

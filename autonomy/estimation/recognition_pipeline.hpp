@@ -4,7 +4,7 @@
 //   frame --> waits until the pose at its time is known --> KnownObjects, a job --> ObjectTracker --> ObjectsLayer
 //   scan  --> the one that is nearest in time, and what the map has where it sees nothing --^
 //
-// An RGB-D camera shows openings, houses and patterns, the left picture of a stereo camera patterns.
+// An RGB-D camera shows openings and patterns, the left picture of a stereo camera patterns.
 #pragma once
 
 #include <deque>

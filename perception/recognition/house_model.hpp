@@ -16,6 +16,9 @@
 
 namespace swiftlet::perception {
 
+/// Whether the `picture` of a known object is the model of a house: a file of YAML.
+inline bool namesHouseModel(const std::string& picture) { return picture.ends_with(".yaml"); }
+
 /// Outer sizes. A convex body, beside the chimney.
 struct HouseModel {
   double length_m = 0.0;  ///< Along the ridge.

@@ -67,9 +67,7 @@ std::vector<Recognized> HouseRecognizer::recognize(const Observation& observatio
                        observation.R_level_camera.toRotationMatrix(), config_.inverse_depth_sigma_1_m,
                        config_.range_max_m};
   const std::vector<HousePoint> points = housePoints(view);
-  // Where the camera does not see the ground, the house stands on the floor from which the vehicle took off.
-  std::optional<double> ground_m = groundOf(points);
-  if (!ground_m) ground_m = observation.floor_level_m;
+  const auto ground_m = groundOf(points);
   if (!ground_m) return houses;
   std::vector<std::vector<HousePoint>> groups = standingGroups(points, *ground_m, config_.model);
   groups.resize(std::min(groups.size(), kGroups));

@@ -64,7 +64,7 @@ std::vector<Problem> KnownObjectConfig::validate() const {
                      "name the pattern otherwise, or `openings` to look for windows and doors");
   validation.require(picture.empty() != (tag < 0), "picture",
                      Message("recognition.no-look", "`{}` needs either a picture or a tag", name));
-  if (isHouse()) return validation.problems();
+  if (namesHouseModel(picture)) return validation.problems();
   return validation.given(width_m > 0.0, "width_m").problems();
 }
 
@@ -75,7 +75,7 @@ tl::expected<KnownObjects, Problem> KnownObjects::create(const std::vector<Known
   for (const KnownObjectConfig& config : configs) {
     if (!config.isPattern()) {
       known.openings_ = std::make_unique<OpeningRecognizer>(openings);
-    } else if (config.isHouse()) {
+    } else if (namesHouseModel(config.picture)) {
       const auto house = HouseModel::read(config.picture_bytes, config.picture);
       if (!house)
         return tl::unexpected(Problem{{}, config.name, house.error().behind("`" + config.picture + "` "), {}});

@@ -1,4 +1,4 @@
-// What a profile looks for: openings, printed patterns, tags and houses, behind the one interface.
+// What a profile looks for: openings, printed patterns and tags, behind the one interface.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace swiftlet::perception {
 /// The name under which windows and doors are looked for.
 inline constexpr const char* kOpenings = "openings";
 
-/// One line of the list: `openings`, a pattern by a picture or as a tag, or a house by the file of its model.
+/// One line of the list: `openings`, or a pattern by a picture or as a tag.
 struct KnownObjectConfig {
   std::string name;
   std::string picture;
@@ -28,20 +28,17 @@ struct KnownObjectConfig {
 
   void describe(common::config::Fields& fields);
   std::vector<common::Problem> validate() const;
-  /// Something with a name of its own, which a camera sees: a house too.
   bool isPattern() const { return name != kOpenings; }
-  bool isHouse() const { return picture.ends_with(".yaml"); }
 };
 
 /// Not thread-safe: a thread has its own.
 class KnownObjects final : public Recognizer {
  public:
-  /// Fails for a picture that cannot be read or shows no place, and for a model of no house; the element of the problem
-  /// is the pattern's name. Of `openings` the noise and the range of the depths are those of houses too.
+  /// Fails for a picture that cannot be read or shows no place; the element of the problem is the pattern's name.
   static tl::expected<KnownObjects, common::Problem> create(const std::vector<KnownObjectConfig>& configs,
                                                             const OpeningConfig& openings);
 
-  /// What all recognizers find, openings first, with the size of each pattern and house.
+  /// What all recognizers find, in the order of the list, with the size of each pattern.
   std::vector<Recognized> recognize(const Observation& observation) override;
 
   /// Whether it looks at grey pictures.
@@ -49,7 +46,7 @@ class KnownObjects final : public Recognizer {
   bool needsDepths() const { return openings_ != nullptr; }
 
  private:
-  /// The size of a pattern or a house by its name.
+  /// A pattern's size by its name.
   struct Known {
     std::string name;
     Eigen::Vector2d size_m;

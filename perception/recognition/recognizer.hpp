@@ -2,7 +2,6 @@
 // "Recognition": objects are identified, and their relative positions and headings estimated).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -31,8 +30,6 @@ struct Observation {
   common::Pose3 T_camera_laser = {};  ///< Of the scan that was measured about the time of the frame.
   /// In the camera: where walls are that the laser saw before and does not see now, behind it. Null: nothing is known.
   const std::vector<Eigen::Vector3d>* seen_before_m = nullptr;
-  /// Height of the take-off floor in the axes of the level camera, by the height of flight; nullopt: it is not known.
-  std::optional<double> floor_level_m = std::nullopt;
 };
 
 /// Not thread-safe: a thread has its own. The same observation gives the same bits, whatever came before.

@@ -210,7 +210,6 @@ class KnownHouseBuilder {
     const double sigma_rad = 0.5 * kRadPerDeg;
     scene_.R_level_camera =
         common::expSO3({random_.gaussian(sigma_rad), random_.gaussian(sigma_rad), 0.0}) * R;
-    scene_.floor_level_m = -at_m.z() + random_.gaussian(0.03);
   }
 
   const KnownStyle& style_;
@@ -273,9 +272,7 @@ std::vector<Recognized> housesIn(const KnownHouseScene& scene, const common::Rgb
       camera.isStereo() ? vision::StereoMatcher(camera).noise().sigma_per_m2
                         : std::hypot(camera.inverse_depth_noise_1_m, camera.inverse_depth_step_1_m / std::sqrt(12.0));
   config.range_max_m = camera.range_max_m;
-  Observation observation{.picture = &picture, .frame = &frame, .R_level_camera = scene.R_level_camera};
-  observation.floor_level_m = scene.floor_level_m;
-  return HouseRecognizer(config).recognize(observation);
+  return HouseRecognizer(config).recognize({&picture, nullptr, &frame, scene.R_level_camera});
 }
 
 HouseError errorOf(const Recognized& house, const KnownHouseScene& scene) {

@@ -26,7 +26,6 @@ struct KnownHouseScene {
   HouseModel built;  ///< That stands there: the same, or one of another size.
   common::Pose3 T_world_house, T_world_camera;
   Eigen::Quaterniond R_level_camera;  ///< With the error of an attitude of half a degree.
-  double floor_level_m = 0.0;         ///< Observation::floor_level_m, with an error of 3 cm.
   std::uint64_t seed = 0, index = 0;
 
   common::Pose3 T_camera_house() const { return T_world_camera.inverse() * T_world_house; }
