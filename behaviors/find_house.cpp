@@ -2,7 +2,8 @@
 // Framework": the vehicle starts without sight of the house and finds it first). SUCCESS with its place when it is
 // recognized from enough places, and the vehicle has stopped; FAILURE when nothing is left to look at.
 //
-//   climb --> towards the expected place | all around --> from the places around it --> explore --nothing left--> FAILURE
+//   climb --> towards the expected place | all around --> from the places around it --> explore --nothing left-->
+//   FAILURE
 //       \----------------------- recognized at any time: stop ----------------------/ --> SUCCESS
 //
 // A house that one look has recognized is looked at from other places, until it is confirmed.
@@ -177,8 +178,8 @@ Status FindHouse::act(tree::TickContext& context) {
   const common::World& world = *tick.flight.world;
   if (!T_map_start_) T_map_start_ = world.vehicle->state.T_map_body_planar();
   const RecognizedObject* candidate = nullptr;
-  for (const RecognizedObject* house : objectsNear(world, wanted->name, T_map_start_->position_m(),
-                                                   std::numeric_limits<double>::infinity())) {
+  for (const RecognizedObject* house :
+       objectsNear(world, wanted->name, T_map_start_->position_m(), std::numeric_limits<double>::infinity())) {
     if (house->confirmed) return found(context, *house);
     if (candidate == nullptr) candidate = house;
   }
@@ -230,9 +231,9 @@ std::optional<common::GoToIntent> FindHouse::nextView(const FlightTick& tick, co
   view.mode = tick.mode;
   if (candidate == nullptr && turns_ < (wanted.expected_map_m ? 1 : kHouseTurns)) {
     const Eigen::Vector2d here_map_m = T_map_start_->position_m();
-    const double towards_rad = middle_map_m ? std::atan2((*middle_map_m - here_map_m).y(),
-                                                         (*middle_map_m - here_map_m).x())
-                                            : T_map_start_->yaw_rad;
+    const double towards_rad = middle_map_m
+                                   ? std::atan2((*middle_map_m - here_map_m).y(), (*middle_map_m - here_map_m).x())
+                                   : T_map_start_->yaw_rad;
     view.goal_map_m = here_map_m;
     view.yaw_map_rad = common::wrapAngle(towards_rad + 2.0 * std::numbers::pi * turns_++ / kHouseTurns);
     // Where it stands already it may be nearer to something than paths lead.

@@ -1,8 +1,8 @@
 // benchmark_recognition [--pictures N] [--seed N] [--backgrounds FOLDER] [--pattern landing | shapes | FILE]
 //
 // Renders scenes with a pattern and the same with an AprilTag in its place, half of them with decoys only, and counts
-// what each recognizer finds. With --openings, rooms of random houses instead, written or held-back; with --houses, yards
-// with a house of known shape. The tables of docs/recognition.md.
+// what each recognizer finds. With --openings, rooms of random houses instead, written or held-back; with --houses,
+// yards with a house of known shape. The tables of docs/recognition.md.
 #include <ctime>
 
 #include <algorithm>

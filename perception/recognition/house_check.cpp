@@ -114,8 +114,7 @@ void countAtEnds(const Eigen::Vector3d& at, const HouseModel& model, int HouseEn
 
 bool HouseEnd::isSeen() const {
   // A roof that returns nothing ends where the camera sees past it.
-  const bool shown =
-      (on >= kEndLeast && on >= unmeasured) || (on + unmeasured >= kEndLeast && free >= kEndLeast);
+  const bool shown = (on >= kEndLeast && on >= unmeasured) || (on + unmeasured >= kEndLeast && free >= kEndLeast);
   return shown && !isElsewhere();
 }
 bool HouseEnd::isElsewhere() const {
@@ -132,8 +131,7 @@ double HouseEvidence::share() const {
 HouseEvidence evidenceFor(const HousePose& pose, const HouseModel& model, const DepthView& view, double ground_m) {
   const HouseBody body(model), larger(grown(model));
   const Eigen::Vector3d camera_m = pose.inHouse_m(Eigen::Vector3d::Zero());
-  const Eigen::Matrix3d R_house_level =
-      Eigen::AngleAxisd(-pose.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R_house_level = Eigen::AngleAxisd(-pose.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   HouseEvidence evidence;
   evidence.ground_off_m = std::abs(pose.position_m.z() - ground_m);
   evidence.in_view = inViewShare(pose, model, body, view);
@@ -193,23 +191,23 @@ HouseEvidence evidenceFor(const HousePose& pose, const HouseModel& model, const 
       evidence.face_off_m = std::max(evidence.face_off_m, std::abs(common::quantile(face, 0.5)));
   for (const auto& roof : roof_off_m)
     if (std::min(roof[0].size(), roof[1].size()) >= kFacePoints)
-      evidence.slope_off_m = std::max(evidence.slope_off_m, std::abs(common::quantile(roof[1], 0.5) -
-                                                                     common::quantile(roof[0], 0.5)));
+      evidence.slope_off_m =
+          std::max(evidence.slope_off_m, std::abs(common::quantile(roof[1], 0.5) - common::quantile(roof[0], 0.5)));
   return evidence;
 }
 
 /// Both gables, and one of the eaves: the other may be behind the ridge, whose place the slope tells.
 bool endsWhereItShould(const std::array<HouseEnd, 4>& ends) {
-  const bool elsewhere =
-      std::any_of(ends.begin(), ends.end(), [](const HouseEnd& end) { return end.isElsewhere(); });
+  const bool elsewhere = std::any_of(ends.begin(), ends.end(), [](const HouseEnd& end) { return end.isElsewhere(); });
   return !elsewhere && ends[0].isSeen() && ends[1].isSeen() && (ends[2].isSeen() || ends[3].isSeen());
 }
 
 bool isThatHouse(const HouseEvidence& evidence) {
   const int on = evidence.on;
-  return endsWhereItShould(evidence.ends) && on >= kLeastOn && evidence.in_view >= kLeastInView && evidence.roof_through <= kRoofThrough * on &&
-         evidence.wall_through <= kWallThrough * on && evidence.beside <= kBesideShare * on &&
-         evidence.before <= kHiddenShare * on && evidence.face_off_m <= kFaceOff_m && evidence.slope_off_m <= kSlopeOff_m &&
+  return endsWhereItShould(evidence.ends) && on >= kLeastOn && evidence.in_view >= kLeastInView &&
+         evidence.roof_through <= kRoofThrough * on && evidence.wall_through <= kWallThrough * on &&
+         evidence.beside <= kBesideShare * on && evidence.before <= kHiddenShare * on &&
+         evidence.face_off_m <= kFaceOff_m && evidence.slope_off_m <= kSlopeOff_m &&
          evidence.ground_off_m <= kGroundOff_m;
 }
 

@@ -24,16 +24,16 @@ struct HouseEnd {
 
 /// Counts of pixels, every second of every second row.
 struct HouseEvidence {
-  int on = 0;            ///< Measured on the shape, or at its chimney.
-  int before = 0;        ///< Something else hides the shape.
-  int roof_through = 0;  ///< Measured behind a roof.
-  int wall_through = 0;  ///< Measured behind a wall: by a door or a window, or there is none.
-  int beside = 0;        ///< Of something that stands right beside the shape.
+  int on = 0;                    ///< Measured on the shape, or at its chimney.
+  int before = 0;                ///< Something else hides the shape.
+  int roof_through = 0;          ///< Measured behind a roof.
+  int wall_through = 0;          ///< Measured behind a wall: by a door or a window, or there is none.
+  int beside = 0;                ///< Of something that stands right beside the shape.
   std::array<HouseEnd, 4> ends;  ///< Of both gables, then of both eaves.
-  double in_view = 0.0;  ///< Share of the faces towards the camera that is in the picture and in range.
-  double face_off_m = 0.0;    ///< Greatest median distance of the points of one face from it.
-  double slope_off_m = 0.0;   ///< Greatest difference of that between the upper and the lower third of a roof.
-  double ground_off_m = 0.0;  ///< Of the floor of the shape above the ground.
+  double in_view = 0.0;          ///< Share of the faces towards the camera that is in the picture and in range.
+  double face_off_m = 0.0;       ///< Greatest median distance of the points of one face from it.
+  double slope_off_m = 0.0;      ///< Greatest difference of that between the upper and the lower third of a roof.
+  double ground_off_m = 0.0;     ///< Of the floor of the shape above the ground.
 
   /// Share of what the picture shows of the shape that speaks for it.
   double share() const;

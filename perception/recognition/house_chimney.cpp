@@ -127,8 +127,7 @@ std::optional<ChimneyMatch> ChimneyWindow::matchAt(const Eigen::Vector2d& moved_
       inside += 1.0;
       sum_inside += value;
       const auto seen_m = static_cast<double>(view_.depth.at(u, v));
-      const double within_m =
-          kChimneyOff_m + 2.0 * common::square(depths->chimney_m) * view_.inverse_depth_sigma_1_m;
+      const double within_m = kChimneyOff_m + 2.0 * common::square(depths->chimney_m) * view_.inverse_depth_sigma_1_m;
       // Where the roof is as near, a depth does not tell.
       if (!(seen_m > 0.0) || depths->behind_m < depths->chimney_m + 2.0 * within_m) continue;
       ++measured;
@@ -138,8 +137,7 @@ std::optional<ChimneyMatch> ChimneyWindow::matchAt(const Eigen::Vector2d& moved_
   const double mean = sum / all, share = inside / all;
   const double variance = squares / all - mean * mean + kGrayVariance;
   ChimneyMatch match;
-  match.correlation =
-      std::abs(sum_inside / inside - mean) * share / std::sqrt(variance * share * (1.0 - share));
+  match.correlation = std::abs(sum_inside / inside - mean) * share / std::sqrt(variance * share * (1.0 - share));
   match.in_depth = measured >= kLeastInside_px ? static_cast<double>(there) / measured : 0.0;
   match.moved_m = moved_m;
   const Eigen::Vector3d top(middle_m.x(), middle_m.y(), model_.chimney_top_m);

@@ -1,5 +1,6 @@
 // The shape of a known house: a box with a gable roof and a chimney (Tomic 2012, section "Recognition": "the shape of a
-// model of the house"). Its axes: the origin in the middle of its floor, x along the ridge, to the chimney's half, z up.
+// model of the house"). Its axes: the origin in the middle of its floor, x along the ridge, to the chimney's half, z
+// up.
 #pragma once
 
 #include <array>
@@ -23,9 +24,9 @@ inline bool namesHouseModel(const std::string& picture) { return picture.ends_wi
 struct HouseModel {
   double length_m = 0.0;  ///< Along the ridge.
   double width_m = 0.0;
-  double eaves_m = 0.0, ridge_m = 0.0;                           ///< Above the floor. A flat roof has both alike.
-  double chimney_x_m = 0.0, chimney_y_m = 0.0;                   ///< Of its middle.
-  double chimney_side_m = 0.0, chimney_top_m = 0.0;              ///< A square; above the floor.
+  double eaves_m = 0.0, ridge_m = 0.0;               ///< Above the floor. A flat roof has both alike.
+  double chimney_x_m = 0.0, chimney_y_m = 0.0;       ///< Of its middle.
+  double chimney_side_m = 0.0, chimney_top_m = 0.0;  ///< A square; above the floor.
 
   void describe(common::config::Fields& fields);
   std::vector<common::Problem> validate() const;

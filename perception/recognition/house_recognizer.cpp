@@ -21,16 +21,15 @@ constexpr double kHouseBias_1_m = 0.0006;
 /// Of the attitude, which no depth shows: it tilts what is taken for level.
 constexpr double kTiltSigma_rad = 0.5 * common::kRadPerDeg;
 
-Recognized recognizedHouse(const HouseConfig& config, const HousePose& pose, double confidence,
-                           const DepthView& view) {
+Recognized recognizedHouse(const HouseConfig& config, const HousePose& pose, double confidence, const DepthView& view) {
   const Eigen::Matrix3d R_camera_level = view.R_level_camera.transpose();
   Recognized house;
   house.what = config.name;
   house.confidence = confidence;
   house.size_m = {config.model.length_m, config.model.width_m};
-  house.T_sensor_object = {Eigen::Quaterniond(R_camera_level) *
-                               Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()),
-                           R_camera_level * pose.position_m};
+  house.T_sensor_object = {
+      Eigen::Quaterniond(R_camera_level) * Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()),
+      R_camera_level * pose.position_m};
   Eigen::Matrix<double, 6, 6> level = Eigen::Matrix<double, 6, 6>::Zero();
   level(0, 0) = level(1, 1) = common::square(kTiltSigma_rad);
   level(2, 2) = pose.covariance(3, 3);

@@ -130,7 +130,8 @@ TEST(FindHouse, LooksAtACandidateFromBesideAndStopsWhenItIsConfirmed) {
   EXPECT_THAT(search.tick(), HasSubstr("hold"));
   search.flight.stops();
   EXPECT_EQ(search.tick(), "DONE");
-  EXPECT_THAT(search.flight.events(), Contains(StartsWith("house 3 found (at (6.40, 0.50) +- 0.02 m, its ridge at 90")));
+  EXPECT_THAT(search.flight.events(),
+              Contains(StartsWith("house 3 found (at (6.40, 0.50) +- 0.02 m, its ridge at 90")));
 }
 
 TEST(PlaceAtObject, IsInTheAxesOfTheObject) {

@@ -20,7 +20,8 @@ namespace swiftlet::perception {
 namespace {
 
 const std::string kSizes =
-    "length_m: 4.4\nwidth_m: 3.6\neaves_m: 2.2\nridge_m: 3.0\nchimney_x_m: 1.3\nchimney_y_m: 0.7\nchimney_side_m: 0.5\n";
+    "length_m: 4.4\nwidth_m: 3.6\neaves_m: 2.2\nridge_m: 3.0\nchimney_x_m: 1.3\nchimney_y_m: 0.7\nchimney_side_m: "
+    "0.5\n";
 
 HouseModel knownHouse() { return *HouseModel::read(kSizes + "chimney_top_m: 3.5\n", "house.yaml"); }
 
@@ -81,8 +82,8 @@ std::vector<HousePoint> pointsOf(const HouseModel& model, const HousePose& pose,
   common::RandomStream random(7, "house points");
   std::vector<HousePoint> points;
   const auto add = [&](const Eigen::Vector3d& at_house_m) {
-    points.push_back({pose.inLevel_m(at_house_m) + Eigen::Vector3d(random.gaussian(sigma_m), random.gaussian(sigma_m),
-                                                                   random.gaussian(sigma_m)),
+    points.push_back({pose.inLevel_m(at_house_m) +
+                          Eigen::Vector3d(random.gaussian(sigma_m), random.gaussian(sigma_m), random.gaussian(sigma_m)),
                       sigma_m});
   };
   for (double x = -2.15; x < 2.2; x += 0.1) {
@@ -163,8 +164,8 @@ TEST(HouseRecognizer, NeedsDepthsAPictureAndTheGround) {
   const common::Pose3 T_house_camera = scene.T_camera_house().inverse();
   for (int v = 0; v < frame.camera.height_px; ++v)
     for (int u = 0; u < frame.camera.width_px; ++u) {
-      const auto entry = body.enteredBy(T_house_camera.position_m,
-                                        T_house_camera.rotation * frame.camera.point_camera_m(u, v, 1.0));
+      const auto entry =
+          body.enteredBy(T_house_camera.position_m, T_house_camera.rotation * frame.camera.point_camera_m(u, v, 1.0));
       if (!entry) continue;
       no_chimney.depth.depth_m[static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.camera.width_px) +
                                static_cast<std::size_t>(u)] = static_cast<float>(entry->depth_m);

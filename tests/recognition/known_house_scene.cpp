@@ -39,12 +39,26 @@ struct KnownStyle {
 };
 
 const KnownStyle& styleOfKnown(KnownHouses houses) {
-  static const KnownStyle kWritten{{3.8, 5.0}, {3.2, 4.0}, {2.0, 2.4}, {0.6, 1.0},
-                                   {0.4, 0.6}, {0.3, 0.5}, {Pattern::kBlank, Pattern::kPlaster, Pattern::kWood},
-                                   {0.3, 0.5}, {0.5, 0.9}, 3};
-  static const KnownStyle kHeldBack{{3.4, 5.6}, {2.8, 4.6}, {1.8, 2.7}, {0.4, 1.4},
-                                    {0.35, 0.8}, {0.2, 0.7}, {Pattern::kPlaster, Pattern::kTiles, Pattern::kBrick},
-                                    {0.2, 0.6}, {0.1, 0.9}, 6};
+  static const KnownStyle kWritten{{3.8, 5.0},
+                                   {3.2, 4.0},
+                                   {2.0, 2.4},
+                                   {0.6, 1.0},
+                                   {0.4, 0.6},
+                                   {0.3, 0.5},
+                                   {Pattern::kBlank, Pattern::kPlaster, Pattern::kWood},
+                                   {0.3, 0.5},
+                                   {0.5, 0.9},
+                                   3};
+  static const KnownStyle kHeldBack{{3.4, 5.6},
+                                    {2.8, 4.6},
+                                    {1.8, 2.7},
+                                    {0.4, 1.4},
+                                    {0.35, 0.8},
+                                    {0.2, 0.7},
+                                    {Pattern::kPlaster, Pattern::kTiles, Pattern::kBrick},
+                                    {0.2, 0.6},
+                                    {0.1, 0.9},
+                                    6};
   return houses == KnownHouses::kWritten ? kWritten : kHeldBack;
 }
 
@@ -187,8 +201,8 @@ class KnownHouseBuilder {
       const double at_rad = random_.uniform(-std::numbers::pi, std::numbers::pi);
       const double far_m = away_m + random_.uniform(0.3, 2.5), height_m = random_.uniform(0.4, 1.8);
       add({far_m * std::cos(at_rad), far_m * std::sin(at_rad), 0.5 * height_m},
-          {random_.uniform(0.2, 1.2), random_.uniform(0.2, 1.2), height_m}, random_.uniform(0.2, 0.9),
-          Pattern::kWood, inAngles(0.0, 0.0, random_.uniform(0.0, 1.5)));
+          {random_.uniform(0.2, 1.2), random_.uniform(0.2, 1.2), height_m}, random_.uniform(0.2, 0.9), Pattern::kWood,
+          inAngles(0.0, 0.0, random_.uniform(0.0, 1.5)));
     }
   }
 
@@ -208,8 +222,7 @@ class KnownHouseBuilder {
     }
     scene_.T_world_camera = {R, at_m};
     const double sigma_rad = 0.5 * kRadPerDeg;
-    scene_.R_level_camera =
-        common::expSO3({random_.gaussian(sigma_rad), random_.gaussian(sigma_rad), 0.0}) * R;
+    scene_.R_level_camera = common::expSO3({random_.gaussian(sigma_rad), random_.gaussian(sigma_rad), 0.0}) * R;
   }
 
   const KnownStyle& style_;

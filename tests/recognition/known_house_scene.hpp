@@ -1,6 +1,6 @@
-// A house with a gable roof and a chimney in a yard, as a depth camera 4 m above sees it: one of a known shape, or one of
-// another size in its place. Two generators: one to write a recognizer with, and one of other proportions, coverings and
-// surroundings to judge it by.
+// A house with a gable roof and a chimney in a yard, as a depth camera 4 m above sees it: one of a known shape, or one
+// of another size in its place. Two generators: one to write a recognizer with, and one of other proportions, coverings
+// and surroundings to judge it by.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,7 @@ struct KnownHouseScene {
   common::Pose3 T_camera_house() const { return T_world_camera.inverse() * T_world_house; }
 };
 
-KnownHouseScene drawKnownHouse(KnownHouses houses, HouseLook look, bool other, std::uint64_t seed,
-                               std::uint64_t index);
+KnownHouseScene drawKnownHouse(KnownHouses houses, HouseLook look, bool other, std::uint64_t seed, std::uint64_t index);
 
 /// config/sensors/realsense_d455.yaml without its mount.
 common::RgbdCameraConfig houseCamera();
