@@ -9,7 +9,6 @@
 #include <Eigen/Dense>
 
 #include "common/pose2.hpp"
-#include "common/quantile.hpp"
 #include "common/square.hpp"
 
 namespace swiftlet::perception {
@@ -20,17 +19,12 @@ constexpr double kRoofBelow_m = 0.15;
 constexpr std::size_t kLeastRoof = 60, kLeastFit = 120;
 /// A point farther from the shape is of something else; closer from round to round.
 constexpr std::array kFitGates_m = {1.0, 1.0, 0.7, 0.7, 0.5, 0.5, 0.35, 0.35, 0.25, 0.25, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2};
-constexpr double kNearRoof_m = 0.1;
 /// How far real walls and roofs are from the planes of the model.
 constexpr double kShapeSigma_m = 0.03;
 /// The height of the ground is known to so much: it is uneven, and the attitude is off.
 constexpr double kGroundSigma_m = 0.05;
 /// Neighbouring points err alike: of so many one counts.
 constexpr double kFitCorrelated = 20.0;
-/// The roof ends where its last points are: to half of the distance between two rows of points.
-constexpr double kRidgeEnd_m = 0.04, kRidgeEndShare = 0.005;
-/// Both ends are seen where the points are about as long as the roof.
-constexpr double kRidgeShort_m = 0.3, kRidgeReach_m = 0.5;
 /// Two poses that are that near are one; half a turn apart they are the same shape.
 constexpr double kSamePose_m = 0.15, kSamePose_rad = 0.1;
 
@@ -62,13 +56,6 @@ RoofSpread spreadOf(const std::vector<HousePoint>& points, double roof_m) {
   return {middle, std::atan2(axis.y(), axis.x())};
 }
 
-/// Points at the edge of a roof belong to it: taken for points of the wall below they would hold the wall where it is.
-int faceNear(const HouseBody& body, const Eigen::Vector3d& at, double sigma_m) {
-  const int face = body.faceOf(at), roof = at.y() > 0.0 ? kRoofLeft : kRoofRight;
-  const bool near_roof = std::abs(body.off_m(at, roof)) < kNearRoof_m + 2.0 * sigma_m;
-  return !isRoof(face) && near_roof ? roof : face;
-}
-
 /// One round of ICP: the step that brings the points to the planes of the faces on which they lie.
 struct FitRound {
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
@@ -82,7 +69,7 @@ FitRound roundOf(const HouseBody& body, const std::vector<HousePoint>& points, c
   const Eigen::Matrix3d R = Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (const HousePoint& point : points) {
     const Eigen::Vector3d at = pose.inHouse_m(point.at_m);
-    const int face = faceNear(body, at, point.sigma_m);
+    const int face = body.faceOf(at);
     const double off_m = body.off_m(at, face);
     if (std::abs(off_m) > gate_m) continue;
     ++round.fitting;
@@ -110,8 +97,8 @@ std::optional<HousePose> alignedFrom(HousePose pose, const HouseBody& body, cons
   for (const double gate_m : kFitGates_m) {
     const FitRound round = roundOf(body, points, pose, ground_m, gate_m);
     if (round.fitting < kLeastFit) return std::nullopt;
-    // A direction that no point fixes stays where it is, to about a metre.
-    const Eigen::Matrix4d held = round.information + Eigen::Matrix4d::Identity();
+    // A direction that no point fixes stays where it is.
+    const Eigen::Matrix4d held = round.information + 1e-3 * Eigen::Matrix4d::Identity();
     const Eigen::Vector4d step = -held.ldlt().solve(round.gradient);
     if (!step.allFinite()) return std::nullopt;
     pose.position_m += step.head<3>();
@@ -122,29 +109,6 @@ std::optional<HousePose> alignedFrom(HousePose pose, const HouseBody& body, cons
   return pose;
 }
 
-/// From above no plane says where the house is along its ridge; the ends of its roof do.
-HousePose centredAlongRidge(HousePose pose, const HouseModel& model, const std::vector<HousePoint>& points) {
-  std::vector<double> along_m;
-  for (const HousePoint& point : points) {
-    const Eigen::Vector3d at = pose.inHouse_m(point.at_m);
-    const bool on_roof = std::abs(at.z() - model.roofAt_m(at.y())) < kFitGates_m.back();
-    if (on_roof && std::abs(at.y()) < 0.5 * model.width_m && std::abs(at.x()) < 0.5 * model.length_m + kRidgeReach_m)
-      along_m.push_back(at.x());
-  }
-  if (along_m.size() < kLeastRoof) return pose;
-  const double first_m = common::quantile(along_m, kRidgeEndShare),
-               last_m = common::quantile(along_m, 1.0 - kRidgeEndShare);
-  if (std::abs(last_m - first_m - model.length_m) > kRidgeShort_m) return pose;
-  const Eigen::Vector2d ridge(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
-  const Eigen::Vector4d across = pose.covariance.leftCols<2>() * ridge;
-  const double variance_m2 = ridge.dot(across.head<2>()) + common::square(kRidgeEnd_m);
-  const Eigen::Vector4d step = across / variance_m2 * 0.5 * (first_m + last_m);
-  pose.position_m += step.head<3>();
-  pose.yaw_rad = common::wrapAngle(pose.yaw_rad + step[3]);
-  pose.covariance -= (across * across.transpose() / variance_m2).eval();
-  return pose;
-}
-
 /// The shape is the same after half a turn.
 bool isSamePose(const HousePose& a, const HousePose& b) {
   const double turn_rad = std::remainder(a.yaw_rad - b.yaw_rad, std::numbers::pi);
@@ -152,10 +116,6 @@ bool isSamePose(const HousePose& a, const HousePose& b) {
 }
 
 }  // namespace
-
-double HousePose::worstSigma_m() const {
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance.topLeftCorner<2, 2>()).eigenvalues()[1]);
-}
 
 std::vector<HousePose> fitHouse(const HouseModel& model, const std::vector<HousePoint>& points, double ground_m) {
   std::vector<HousePose> poses;
@@ -170,15 +130,14 @@ std::vector<HousePose> fitHouse(const HouseModel& model, const std::vector<House
       HousePose start;
       start.position_m << spread.middle_m + side * model.width_m * across, ground_m;
       start.yaw_rad = common::wrapAngle(yaw_rad);
-      const auto aligned = alignedFrom(start, body, points, ground_m);
-      if (!aligned) continue;
-      const HousePose pose = centredAlongRidge(*aligned, model, points);
+      const auto pose = alignedFrom(start, body, points, ground_m);
+      if (!pose) continue;
       const auto same =
-          std::find_if(poses.begin(), poses.end(), [&](const HousePose& one) { return isSamePose(one, pose); });
+          std::find_if(poses.begin(), poses.end(), [&](const HousePose& one) { return isSamePose(one, *pose); });
       if (same == poses.end())
-        poses.push_back(pose);
-      else if (pose.fit > same->fit)
-        *same = pose;
+        poses.push_back(*pose);
+      else if (pose->fit > same->fit)
+        *same = *pose;
     }
   std::stable_sort(poses.begin(), poses.end(), [](const HousePose& a, const HousePose& b) { return a.fit > b.fit; });
   return poses;

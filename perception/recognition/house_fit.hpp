@@ -25,8 +25,6 @@ struct HousePose {
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< Of x, y, z and yaw.
   double fit = 0.0;                                      ///< Share of the points that lie on the shape.
 
-  /// Standard deviation of the place on the ground in its worst direction.
-  double worstSigma_m() const;
   Eigen::Vector3d inHouse_m(const Eigen::Vector3d& point_level_m) const {
     return Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitZ()) * (point_level_m - position_m);
   }

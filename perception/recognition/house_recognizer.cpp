@@ -18,8 +18,6 @@ namespace {
 constexpr std::size_t kGroups = 3;
 /// Of the inverse depth, equal in all pixels (config/nature/real.yaml: within 0.001).
 constexpr double kHouseBias_1_m = 0.0006;
-/// A fit that is known less along some direction is not one that shows where the house is.
-constexpr double kFitSigma_m = 0.15;
 /// Of the attitude, which no depth shows: it tilts what is taken for level.
 constexpr double kTiltSigma_rad = 0.5 * common::kRadPerDeg;
 
@@ -51,7 +49,6 @@ Recognized recognizedHouse(const HouseConfig& config, const HousePose& pose, dou
 std::optional<Recognized> houseAmong(const std::vector<HousePoint>& group, const HouseConfig& config,
                                      const CameraPicture& picture, const DepthView& view, double ground_m) {
   for (const HousePose& pose : fitHouse(config.model, group, ground_m)) {
-    if (pose.worstSigma_m() > kFitSigma_m) continue;
     const HouseEvidence evidence = evidenceFor(pose, config.model, view, ground_m);
     if (!isThatHouse(evidence)) continue;
     if (const auto with_chimney = fusedWithChimney(pose, config.model, picture, view))
