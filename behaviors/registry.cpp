@@ -14,6 +14,7 @@ tree::Registry missionRegistry() {
   addEmergencyLand(registry);
   addExplore(registry);
   addExploreUntilFound(registry);
+  addFindHouse(registry);
   addFindPositionIndoor(registry);
   addFindWindow(registry);
   addFindEntrance(registry);
@@ -34,6 +35,7 @@ tree::Registry missionRegistry() {
   addLookAround(registry);
   addMoveToGoal(registry);
   addPhotograph(registry);
+  addPlaceAtObject(registry);
   addRelocalize(registry);
   addSaveMap(registry);
   addSetFlightMode(registry);

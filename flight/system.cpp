@@ -23,6 +23,7 @@
 #include "common/read_bytes.hpp"
 #include "control/controllers/lqr.hpp"
 #include "flight/files_of_kind.hpp"
+#include "perception/recognition/house_model.hpp"
 #include "perception/recognition/known_objects.hpp"
 #include "perception/slam2d/laser_slam.hpp"
 
@@ -173,11 +174,12 @@ std::map<std::string, std::string> findSheets(System& system, const ProfilePlace
 
 std::string keptName(const std::string& key) { return key + ".yaml"; }
 
-/// "pattern-landing.png": the picture of a pattern in a run.
+/// "pattern-landing.png", "house-home.yaml": the picture of a pattern or the model of a house in a run.
 std::string keptPicture(const perception::KnownObjectConfig& object) {
   std::string name = object.name;
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  if (perception::namesHouseModel(object.picture)) return "house-" + name + ".yaml";
   return "pattern-" + name + (object.picture_bytes.starts_with("\x89PNG") ? ".png" : ".jpg");
 }
 

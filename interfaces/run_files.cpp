@@ -49,7 +49,8 @@ bool isRunFile(const std::string& name) {
     return name.starts_with(begin) && name.ends_with(end);
   };
   if (isNamed("map-", ".pgm") || isNamed("map-", ".yaml") || isNamed("photo-", ".jpg") || isNamed("object-", ".jpg") ||
-      isNamed("pattern-", ".png") || isNamed("pattern-", ".jpg") || isNamed("photo-", ".json"))
+      isNamed("pattern-", ".png") || isNamed("pattern-", ".jpg") || isNamed("house-", ".yaml") ||
+      isNamed("photo-", ".json"))
     return true;
   // A `.part` file is left of a Swiftlet file if the process was killed.
   return std::any_of(kFiles.begin(), kFiles.end(), [&](const std::string& file) {

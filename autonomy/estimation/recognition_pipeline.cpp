@@ -11,6 +11,7 @@
 #include "common/check.hpp"
 #include "perception/recognition/walls_beside_scan.hpp"
 #include "vision/gray_image.hpp"
+#include "vision/stereo_matcher.hpp"
 
 namespace swiftlet::autonomy {
 namespace {
@@ -21,16 +22,17 @@ using common::Time;
 constexpr const char* kRecognition = "recognition";
 /// Least time from one frame that is looked at to the next: at 1 m/s a look from another place (0.2 m) each time.
 constexpr double kRecognizeEvery_s = 0.2;
-/// Declared time for one frame (see common/jobs.hpp): openings take 15 ms, a pattern up to 71 ms at 752 x 480
-/// (docs/recognition.md).
+/// Declared time for one frame (see common/jobs.hpp): openings take 15 ms, a house 65 ms, a pattern up to
+/// 71 ms at 752 x 480 (docs/recognition.md).
 constexpr double kRecognizeLatency_s = 0.15;
 /// A scan that is farther from a frame in time does not show what the frame shows: two scans of a laser at 10 Hz.
 constexpr double kScanNear_s = 0.1;
 /// Scans that are kept: as many as a laser at 40 Hz takes in the 400 ms that a late picture needs.
 constexpr std::size_t kScansKept = 16;
 
-/// Noise and steps of the disparity together; steps are uniform.
+/// Noise and steps of the disparity together; steps are uniform. That of a stereo camera is its matcher's.
 double inverseDepthSigma_1_m(const common::RgbdCameraConfig& camera) {
+  if (camera.isStereo()) return vision::StereoMatcher(camera).noise().sigma_per_m2;
   return std::hypot(camera.inverse_depth_noise_1_m, camera.inverse_depth_step_1_m / std::sqrt(12.0));
 }
 

@@ -1,8 +1,8 @@
 // benchmark_recognition [--pictures N] [--seed N] [--backgrounds FOLDER] [--pattern landing | shapes | FILE]
 //
 // Renders scenes with a pattern and the same with an AprilTag in its place, half of them with decoys only, and counts
-// what each recognizer finds. With --openings, rooms of random houses instead, written or held-back. The tables of
-// docs/recognition.md.
+// what each recognizer finds. With --openings, rooms of random houses instead, written or held-back; with --houses,
+// yards with a house of known shape. The tables of docs/recognition.md.
 #include <ctime>
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/LU>
 
+#include "benchmarks/recognition/houses.hpp"
 #include "benchmarks/recognition/openings.hpp"
 #include "common/image_decoder.hpp"
 #include "common/png_encoder.hpp"
@@ -54,7 +55,7 @@ constexpr double kCovered_px = 40.0;
 
 struct Options {
   std::uint64_t pictures = 200, seed = 1, first = 0;
-  std::string backgrounds, pattern = "landing", dump, only, openings;
+  std::string backgrounds, pattern = "landing", dump, only, openings, houses;
   bool verbose = false, tracked = false;
 };
 
@@ -286,11 +287,19 @@ int main(int argc, char** argv) {
   app.add_option("--dump", options.dump, "Folder for the pictures");
   app.add_option("--openings", options.openings, "Windows and doors in as many rooms, of houses that are")
       ->check(CLI::IsMember({"written", "held-back"}));
+  app.add_option("--houses", options.houses, "A house of known shape in as many yards, of a generator that is")
+      ->check(CLI::IsMember({"written", "held-back"}));
   app.add_flag("--tracked", options.tracked, "Openings as confirmed by looks from several places");
   app.add_flag("--verbose", options.verbose, "Name each opening that is missed or false");
   app.add_option("--only", options.only, "The recognizer whose name contains this");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!options.houses.empty()) {
+      const auto houses =
+          options.houses == "written" ? perception::KnownHouses::kWritten : perception::KnownHouses::kHeldBack;
+      benchmarks::countHouses({houses, options.seed, options.first, options.pictures});
+      return 0;
+    }
     if (options.openings.empty()) return run(options);
     const auto houses = options.openings == "written" ? perception::Houses::kWritten : perception::Houses::kHeldBack;
     const benchmarks::OpeningRun rooms{houses, options.seed, options.first, options.pictures, options.verbose};

@@ -8,6 +8,7 @@
 #include "common/config_fields.hpp"
 #include "common/geometry.hpp"
 #include "common/validation.hpp"
+#include "perception/recognition/house_recognizer.hpp"
 #include "perception/recognition/object_tracker.hpp"
 #include "perception/recognition/pattern_recognizer.hpp"
 #include "perception/recognition/tag_recognizer.hpp"
@@ -40,8 +41,11 @@ std::vector<Recognized> openingsInScan(const Observation& observation) {
 }  // namespace
 
 void KnownObjectConfig::describe(common::config::Fields& fields) {
-  fields("name", name, "`openings` for windows and doors, or the name of a pattern, by which missions ask for it.");
-  fields("picture", picture, "Picture of the pattern (PNG or JPEG), a path; empty for openings and tags.");
+  fields("name", name,
+         "`openings` for windows and doors, or the name of a pattern or a house, by which missions ask for it.");
+  fields("picture", picture,
+         "Picture of the pattern (PNG or JPEG), or the model of the house (YAML: docs/recognition.md), a path; empty "
+         "for openings and tags.");
   fields("tag", tag, {-1, 586}, "Id of the pattern as an AprilTag of the family 36h11; -1 if it is none.");
   fields("width_m", width_m, {0, 10}, "Width of the printed picture, or of the black square of a tag.");
 }
@@ -60,6 +64,7 @@ std::vector<Problem> KnownObjectConfig::validate() const {
                      "name the pattern otherwise, or `openings` to look for windows and doors");
   validation.require(picture.empty() != (tag < 0), "picture",
                      Message("recognition.no-look", "`{}` needs either a picture or a tag", name));
+  if (namesHouseModel(picture)) return validation.problems();
   return validation.given(width_m > 0.0, "width_m").problems();
 }
 
@@ -70,6 +75,13 @@ tl::expected<KnownObjects, Problem> KnownObjects::create(const std::vector<Known
   for (const KnownObjectConfig& config : configs) {
     if (!config.isPattern()) {
       known.openings_ = std::make_unique<OpeningRecognizer>(openings);
+    } else if (namesHouseModel(config.picture)) {
+      const auto house = HouseModel::read(config.picture_bytes, config.picture);
+      if (!house)
+        return tl::unexpected(Problem{{}, config.name, house.error().behind("`" + config.picture + "` "), {}});
+      known.patterns_.push_back({config.name, {house->length_m, house->width_m}});
+      known.recognizers_.push_back(std::make_unique<HouseRecognizer>(
+          HouseConfig{config.name, *house, openings.inverse_depth_sigma_1_m, openings.range_max_m}));
     } else if (config.picture.empty()) {
       tags.push_back({config.name, config.tag, config.width_m});
       known.patterns_.push_back({config.name, {config.width_m, config.width_m}});
