@@ -49,8 +49,9 @@ std::string shareOfBound(const evaluation::FlatFlight& flight, double bound_m) {
 std::string benchText(const std::vector<BenchResult>& results) {
   std::string text;
   for (const BenchResult& result : results) {
-    text += fmt::format("{} from \"{:.2f};{:.2f}\"{}\n", result.world, result.start_m.x(), result.start_m.y(),
-                        result.bound_m > 0.0 ? fmt::format(", bound {:.1f} m", result.bound_m) : "");
+    text += result.world;
+    if (result.start_m) text += fmt::format(" from \"{:.2f};{:.2f}\"", result.start_m->x(), result.start_m->y());
+    text += result.bound_m > 0.0 ? fmt::format(", bound {:.1f} m\n", result.bound_m) : "\n";
     text +=
         "  explorer           explore s   path m    home s   path m  of bound  calls  viewpoints  longest call ms\n";
     for (const BenchFlight& entry : result.flights) {
@@ -79,10 +80,9 @@ std::string benchText(const std::vector<BenchResult>& results) {
 std::string benchJson(const std::vector<BenchResult>& results) {
   nlohmann::json json = nlohmann::json::array();
   for (const BenchResult& result : results) {
-    nlohmann::json world{{"world", result.world},
-                         {"start", {result.start_m.x(), result.start_m.y()}},
-                         {"bound_m", result.bound_m},
-                         {"flights", nlohmann::json::array()}};
+    nlohmann::json world{
+        {"world", result.world}, {"bound_m", result.bound_m}, {"flights", nlohmann::json::array()}};
+    if (result.start_m) world["start"] = {result.start_m->x(), result.start_m->y()};
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;
       world["flights"].push_back({{"explorer", entry.explorer},
