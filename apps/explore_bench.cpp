@@ -135,7 +135,8 @@ int exploreBench(const ExploreBenchOptions& options) {
   for (const std::string& file : files) {
     try {
       if (options.fly) {
-        for (BenchResult& flown : flyExplorers(file, chosenExplorers(options.explorers), flightsOf(options), options.json))
+        for (BenchResult& flown :
+             flyExplorers(file, chosenExplorers(options.explorers), flightsOf(options), options.json))
           results.push_back(std::move(flown));
       } else {
         results.push_back(compareIn(file, options, config));
@@ -166,9 +167,10 @@ void addExploreBench(Command& program) {
   command.arguments("maps", options->worlds.places,
                     "Floor plans as map_server reads them (.yaml), grids of the Moving AI benchmarks (.map), worlds "
                     "(.sdf, .world), or folders of them.");
-  command.option("--explorer", options->explorers,
-                 "Only this one: nearest_frontier, utility or tour; with --fly and a depth camera also camera_tour. May be "
-                 "repeated.");
+  command.option(
+      "--explorer", options->explorers,
+      "Only this one: nearest_frontier, utility or tour; with --fly and a depth camera also camera_tour. May be "
+      "repeated.");
   command.option("--system", options->system, "Profile of the vehicle, its laser, its speed and its planner.");
   command.option("--start", options->start,
                  "\"x;y\" in the map, in metres: the nearest place that the hull can fly from. \"0;0\", or the middle "
@@ -184,8 +186,7 @@ void addExploreBench(Command& program) {
   command.option("--seed", options->flights.seed, {0, simulation::kGreatestSeed}, "With --fly: the first seed.");
   command.option("--repeat", options->flights.repeat, {1, 10'000},
                  "With --fly: flights of each explorer in each world, seeds S, S+1, ...");
-  command.option("--out", options->flights.out,
-                 "With --fly: folder of the runs; default runs/<time>-explore-bench.");
+  command.option("--out", options->flights.out, "With --fly: folder of the runs; default runs/<time>-explore-bench.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.footer(
       "An ideal vehicle moves as fast as the profile allows, with an ideal laser and its true pose; explorer and "

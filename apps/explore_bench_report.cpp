@@ -80,8 +80,7 @@ std::string benchText(const std::vector<BenchResult>& results) {
 std::string benchJson(const std::vector<BenchResult>& results) {
   nlohmann::json json = nlohmann::json::array();
   for (const BenchResult& result : results) {
-    nlohmann::json world{
-        {"world", result.world}, {"bound_m", result.bound_m}, {"flights", nlohmann::json::array()}};
+    nlohmann::json world{{"world", result.world}, {"bound_m", result.bound_m}, {"flights", nlohmann::json::array()}};
     if (result.start_m) world["start"] = {result.start_m->x(), result.start_m->y()};
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;

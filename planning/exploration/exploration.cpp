@@ -6,7 +6,8 @@
 namespace swiftlet::planning {
 
 void ExplorerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"utility", "nearest_frontier", "tour", "camera_tour"}, "How the next viewpoint is chosen.");
+  fields.choice("kind", kind, {"utility", "nearest_frontier", "tour", "camera_tour"},
+                "How the next viewpoint is chosen.");
 }
 
 const char* toString(ExplorerKind kind) {

@@ -44,8 +44,7 @@ ExplorationInput ofLaser(const ExplorationInput& input) {
 }
 
 Viewpoint viewpointOf(const CameraLook& look, const CostMap& map) {
-  const Point place_m = map.centerOf(look.place),
-              ahead(std::cos(look.yaw_map_rad), std::sin(look.yaw_map_rad));
+  const Point place_m = map.centerOf(look.place), ahead(std::cos(look.yaw_map_rad), std::sin(look.yaw_map_rad));
   Viewpoint viewpoint{{place_m.x(), place_m.y(), look.yaw_map_rad}, place_m + kCameraTarget_m * ahead};
   viewpoint.gain_m3 = look.gain_m3;
   return viewpoint;

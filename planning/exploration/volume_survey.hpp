@@ -68,7 +68,7 @@ class VolumeSurvey {
   CameraFrustum frustum_;
   int half_columns_ = 0;  ///< Of a picture.
   std::unordered_map<common::VoxelIndex, std::uint32_t, common::VoxelMap::Hash> numbers_;
-  std::vector<bool> is_covered_;          ///< Of each unknown cube.
+  std::vector<bool> is_covered_;           ///< Of each unknown cube.
   std::vector<std::uint32_t> counted_in_;  ///< The last count that it was part of.
   std::uint32_t counts_ = 0;
   std::optional<CameraLook> current_;

@@ -45,10 +45,9 @@ struct CameraRoom : testing::Test {
     const Eigen::AngleAxisd turn(pose.yaw_rad, Vector3d::UnitZ()), pitch(camera.pitch_down_rad, Vector3d::UnitY());
     const Vector3d from(pose.x_m, pose.y_m, kCamera_m);
     for (int i = 0; i < kAcross * kUp; ++i) {
-      const Vector3d ray =
-          turn * pitch *
-          Vector3d(1.0, camera.tangent_across * (2.0 * (i % kAcross) / (kAcross - 1) - 1.0),
-                   camera.tangent_up * (2.0 * (i / kAcross) / (kUp - 1) - 1.0));
+      const Vector3d ray = turn * pitch *
+                           Vector3d(1.0, camera.tangent_across * (2.0 * (i % kAcross) / (kAcross - 1) - 1.0),
+                                    camera.tangent_up * (2.0 * (i / kAcross) / (kUp - 1) - 1.0));
       for (double depth_m = camera.range_min_m; depth_m < camera.range_max_m; depth_m += 0.04) {
         const Vector3d point = from + depth_m * ray;
         seen.set(seen.voxelAt(point), isInside(point) ? -40 : 40);
@@ -100,8 +99,8 @@ struct CameraRoom : testing::Test {
           ++could;
           bool known = false;
           for (int i = 0; i < 8; ++i)
-            known |= seen.isKnown(seen.voxelAt(
-                {x + (i & 1 ? 0.05 : -0.05), y + (i & 2 ? 0.05 : -0.05), z + (i & 4 ? 0.05 : -0.05)}));
+            known |= seen.isKnown(
+                seen.voxelAt({x + (i & 1 ? 0.05 : -0.05), y + (i & 2 ? 0.05 : -0.05), z + (i & 4 ? 0.05 : -0.05)}));
           unseen += known ? 0 : 1;
         }
     return static_cast<double>(unseen) / could;
