@@ -11,6 +11,7 @@ namespace swiftlet::planning {
 namespace {
 
 using common::CellIndex;
+using common::VoxelBlock;
 using common::VoxelIndex;
 using common::VoxelMap;
 
@@ -21,6 +22,11 @@ constexpr double kLattice_m = 0.5;
 /// Places that are evaluated in one call, from the nearest on.
 constexpr std::size_t kMostPlaces = 400;
 constexpr std::uint32_t kKnownCube = std::numeric_limits<std::uint32_t>::max();
+
+VoxelIndex cubeAt(const Eigen::Vector3d& point_m) {
+  const Eigen::Vector3d index = (point_m / kCube_m).array().floor();
+  return {static_cast<int>(index.x()), static_cast<int>(index.y()), static_cast<int>(index.z())};
+}
 
 /// Whether the map knows anything in the cube.
 bool isKnownCube(const VoxelMap& voxels, const Eigen::Vector3d& center_m) {
@@ -146,25 +152,35 @@ void VolumeSurvey::castRay(const Eigen::Vector3d& from_map_m, const Eigen::Vecto
                            Column& seen) {
   const VoxelMap& voxels = *input_.volume.voxels;
   const double step_m = std::min(0.5 * kCube_m, voxels.resolution_m());
+  const double nearest_m = range_m * (frustum_.range_min_m / frustum_.range_max_m);
+  // What neighbouring steps share is looked up once.
+  std::optional<VoxelIndex> in_block, in_cube;
+  const VoxelBlock* block = nullptr;
   for (double at_m = step_m; at_m < range_m; at_m += step_m) {
     const Eigen::Vector3d point_map_m = from_map_m + at_m * direction;
     const VoxelIndex voxel = voxels.voxelAt(point_map_m);
-    const std::int8_t evidence = voxels.evidence(voxel);
+    if (const VoxelIndex index = VoxelMap::blockOf(voxel); !in_block || *in_block != index) {
+      block = voxels.block(index);
+      in_block = index;
+    }
+    const std::int8_t evidence = block == nullptr
+                                     ? VoxelBlock::kUnknown
+                                     : block->evidence[static_cast<std::size_t>(VoxelBlock::offsetOf(voxel))];
     if (evidence > 0) return;
-    if (evidence != common::VoxelBlock::kUnknown) continue;
+    if (evidence != VoxelBlock::kUnknown) continue;
     if (map_.states().at(map_.cellAt(point_map_m.head<2>())) != CellState::kFree) return;
-    if (at_m < range_m * (frustum_.range_min_m / frustum_.range_max_m)) continue;
-    if (const auto cube = unknownCubeAt(point_map_m); cube && (seen.empty() || seen.back() != *cube))
-      seen.push_back(*cube);
+    const VoxelIndex cube = cubeAt(point_map_m);
+    if (at_m < nearest_m || (in_cube && *in_cube == cube)) continue;
+    in_cube = cube;
+    if (const auto number = numberOf(cube)) seen.push_back(*number);
   }
 }
 
-/// The number of the cube there; nullopt if something in it is known.
-std::optional<std::uint32_t> VolumeSurvey::unknownCubeAt(const Eigen::Vector3d& point_map_m) {
-  const Eigen::Vector3d index = (point_map_m / kCube_m).array().floor();
-  const VoxelIndex cube{static_cast<int>(index.x()), static_cast<int>(index.y()), static_cast<int>(index.z())};
+/// nullopt if something in the cube is known.
+std::optional<std::uint32_t> VolumeSurvey::numberOf(const VoxelIndex& cube) {
   const auto [entry, is_new] = numbers_.try_emplace(cube, kKnownCube);
-  if (is_new && !isKnownCube(*input_.volume.voxels, kCube_m * (index + Eigen::Vector3d::Constant(0.5)))) {
+  const Eigen::Vector3d center_m = kCube_m * Eigen::Vector3d(cube.x + 0.5, cube.y + 0.5, cube.z + 0.5);
+  if (is_new && !isKnownCube(*input_.volume.voxels, center_m)) {
     entry->second = static_cast<std::uint32_t>(is_covered_.size());
     is_covered_.push_back(false);
   }

@@ -57,7 +57,7 @@ class VolumeSurvey {
   Panorama pictureAt(const Eigen::Vector2d& place_map_m, double yaw_map_rad);
   Column columnAt(const Eigen::Vector2d& place_map_m, int column);
   void castRay(const Eigen::Vector3d& from_map_m, const Eigen::Vector3d& direction, double range_m, Column& seen);
-  std::optional<std::uint32_t> unknownCubeAt(const Eigen::Vector3d& point_map_m);
+  std::optional<std::uint32_t> numberOf(const common::VoxelIndex& cube);
   CameraLook bestLook(const Panorama& panorama);
   double gainOf_m3(const Panorama& panorama, double yaw_map_rad);
   void mark(const Panorama& panorama, double yaw_map_rad);
