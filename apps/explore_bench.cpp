@@ -118,7 +118,7 @@ BenchResult compareIn(const std::string& file, const ExploreBenchOptions& option
   return result;
 }
 
-/// Each world has a folder of its own.
+/// They fly with the profile that the comparison is for.
 BenchFlightOptions flightsOf(const ExploreBenchOptions& options) {
   BenchFlightOptions flights = options.flights;
   flights.system = options.system;

@@ -40,6 +40,9 @@ Gain gainOf(const std::vector<BenchResult>& results, std::size_t first, std::siz
   return gain;
 }
 
+/// What a flight of the simulated vehicle does not tell is 0.
+std::string ifTold(double value) { return value > 0.0 ? fmt::format("{:.0f}", value) : "-"; }
+
 std::string shareOfBound(const evaluation::FlatFlight& flight, double bound_m) {
   return bound_m > 0.0 ? fmt::format("{:.2f}", flight.total_m / bound_m) : "-";
 }
@@ -57,9 +60,9 @@ std::string benchText(const std::vector<BenchResult>& results) {
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;
       text +=
-          fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16.0f}{}\n", entry.explorer,
-                      f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), f.calls,
-                      f.viewpoints, 1e3 * f.longest_call_s, f.complete ? "" : "  FAILED: " + f.failure);
+          fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16}{}\n", entry.explorer,
+                      f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), ifTold(f.calls),
+                      ifTold(f.viewpoints), ifTold(1e3 * f.longest_call_s), f.complete ? "" : "  FAILED: " + f.failure);
     }
   }
   if (results.empty()) return text;

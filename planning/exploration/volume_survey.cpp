@@ -39,16 +39,16 @@ bool isKnownCube(const VoxelMap& voxels, const Eigen::Vector3d& center_m) {
 }
 
 /// Directions around a place, every 4 degrees.
-constexpr int kDirections = 90;
-double headingOf(int column) { return common::wrapAngle(2.0 * std::numbers::pi * column / kDirections); }
+constexpr int kHeadings = 90;
+double headingOf(int column) { return common::wrapAngle(2.0 * std::numbers::pi * column / kHeadings); }
 int columnOf(double yaw_rad) {
-  const auto column = static_cast<int>(std::lround(yaw_rad / (2.0 * std::numbers::pi) * kDirections));
-  return (column % kDirections + kDirections) % kDirections;
+  const auto column = static_cast<int>(std::lround(yaw_rad / (2.0 * std::numbers::pi) * kHeadings));
+  return (column % kHeadings + kHeadings) % kHeadings;
 }
 
 std::vector<int> columnsAround(int middle, int half) {
   std::vector<int> columns;
-  for (int i = middle - half; i <= middle + half; ++i) columns.push_back((i + kDirections) % kDirections);
+  for (int i = middle - half; i <= middle + half; ++i) columns.push_back((i + kHeadings) % kHeadings);
   return columns;
 }
 
