@@ -1,4 +1,4 @@
-// swiftlet explore-bench: explorers compared in buildings in the plane, by an ideal vehicle.
+// swiftlet explore-bench: explorers compared in buildings in the plane, by an ideal vehicle, or by the simulated one.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/command.hpp"
+#include "apps/explore_bench_flights.hpp"
 #include "apps/explore_bench_report.hpp"
 #include "apps/explore_bench_worlds.hpp"
 #include "apps/listed_numbers.hpp"
@@ -17,6 +18,7 @@
 #include "evaluation/exploration/known_tour.hpp"
 #include "flight/system.hpp"
 #include "flight/wall_clock.hpp"
+#include "simulation/scenario.hpp"
 
 namespace swiftlet::apps {
 namespace {
@@ -34,6 +36,8 @@ struct ExploreBenchOptions {
   std::optional<double> range_m;
   bool no_bound = false;
   bool json = false;
+  bool fly = false;
+  BenchFlightOptions flights;
 };
 
 const std::vector<std::pair<std::string, planning::ExplorerKind>> kExplorers{
@@ -46,11 +50,15 @@ std::vector<std::pair<std::string, planning::ExplorerKind>> chosenExplorers(cons
   if (names.empty()) return kExplorers;
   std::vector<std::pair<std::string, planning::ExplorerKind>> chosen;
   for (const std::string& name : names) {
+    if (name == "camera_tour") {
+      chosen.emplace_back(name, planning::ExplorerKind::kCameraTour);
+      continue;
+    }
     const auto found =
         std::find_if(kExplorers.begin(), kExplorers.end(), [&](const auto& e) { return e.first == name; });
     if (found == kExplorers.end())
       throw InputError({}, "--explorer", Message("explore-bench.explorer", "`{}` is no explorer", name),
-                       "nearest_frontier, utility or tour");
+                       "nearest_frontier, utility, tour or camera_tour");
     chosen.push_back(*found);
   }
   return chosen;
@@ -110,6 +118,13 @@ BenchResult compareIn(const std::string& file, const ExploreBenchOptions& option
   return result;
 }
 
+/// They fly with the profile that the comparison is for.
+BenchFlightOptions flightsOf(const ExploreBenchOptions& options) {
+  BenchFlightOptions flights = options.flights;
+  flights.system = options.system;
+  return flights;
+}
+
 int exploreBench(const ExploreBenchOptions& options) {
   const evaluation::FlatFlightConfig config = flightConfigOf(options);
   (void)chosenExplorers(options.explorers);
@@ -119,7 +134,13 @@ int exploreBench(const ExploreBenchOptions& options) {
   const std::vector<std::string> files = benchFiles(options.worlds.places);
   for (const std::string& file : files) {
     try {
-      results.push_back(compareIn(file, options, config));
+      if (options.fly) {
+        for (BenchResult& flown :
+             flyExplorers(file, chosenExplorers(options.explorers), flightsOf(options), options.json))
+          results.push_back(std::move(flown));
+      } else {
+        results.push_back(compareIn(file, options, config));
+      }
     } catch (const InputError& refused) {
       // One of many does not keep the others from being compared.
       if (files.size() == 1) throw;
@@ -127,8 +148,9 @@ int exploreBench(const ExploreBenchOptions& options) {
       complete = false;
       continue;
     }
-    for (const BenchFlight& entry : results.back().flights) complete = complete && entry.flight.complete;
   }
+  for (const BenchResult& result : results)
+    for (const BenchFlight& entry : result.flights) complete = complete && entry.flight.complete;
   if (options.json)
     showJson(benchJson(results));
   else
@@ -145,8 +167,10 @@ void addExploreBench(Command& program) {
   command.arguments("maps", options->worlds.places,
                     "Floor plans as map_server reads them (.yaml), grids of the Moving AI benchmarks (.map), worlds "
                     "(.sdf, .world), or folders of them.");
-  command.option("--explorer", options->explorers,
-                 "Only this one: nearest_frontier, utility or tour. May be repeated.");
+  command.option(
+      "--explorer", options->explorers,
+      "Only this one: nearest_frontier, utility or tour; with --fly and a depth camera also camera_tour. May be "
+      "repeated.");
   command.option("--system", options->system, "Profile of the vehicle, its laser, its speed and its planner.");
   command.option("--start", options->start,
                  "\"x;y\" in the map, in metres: the nearest place that the hull can fly from. \"0;0\", or the middle "
@@ -157,12 +181,19 @@ void addExploreBench(Command& program) {
   command.option("--cell", options->worlds.cell_m, {0.01, 10.0}, "Of a grid without metres, 1 when not given.");
   command.option("--models", options->worlds.model_paths, "Folder of the models of worlds.");
   command.flag("--no-bound", options->no_bound, "Do not search the short tour through the known map.");
+  command.flag("--fly", options->fly,
+               "Fly the simulated vehicle in worlds and trials, instead of an ideal one in floor plans.");
+  command.option("--seed", options->flights.seed, {0, simulation::kGreatestSeed}, "With --fly: the first seed.");
+  command.option("--repeat", options->flights.repeat, {1, 10'000},
+                 "With --fly: flights of each explorer in each world, seeds S, S+1, ...");
+  command.option("--out", options->flights.out, "With --fly: folder of the runs; default runs/<time>-explore-bench.");
   command.flag("--json", options->json, "Print the results as JSON, nothing else.");
   command.footer(
       "An ideal vehicle moves as fast as the profile allows, with an ideal laser and its true pose; explorer and "
       "planner are those of flights. The bound is the shortest tour found with the whole map known. Exits with 1 if an "
       "exploration is not complete.\n\n"
-      "Example: swiftlet explore-bench plans/ --explorer utility --explorer tour");
+      "Example: swiftlet explore-bench plans/ --explorer utility --explorer tour\n"
+      "Example: swiftlet explore-bench trials/papers/unb_case1.yaml --fly --seed 5101 --repeat 3");
   command.runs([options] { return exploreBench(*options); });
 }
 

@@ -40,6 +40,9 @@ Gain gainOf(const std::vector<BenchResult>& results, std::size_t first, std::siz
   return gain;
 }
 
+/// What a flight of the simulated vehicle does not tell is 0.
+std::string ifTold(double value) { return value > 0.0 ? fmt::format("{:.0f}", value) : "-"; }
+
 std::string shareOfBound(const evaluation::FlatFlight& flight, double bound_m) {
   return bound_m > 0.0 ? fmt::format("{:.2f}", flight.total_m / bound_m) : "-";
 }
@@ -49,16 +52,17 @@ std::string shareOfBound(const evaluation::FlatFlight& flight, double bound_m) {
 std::string benchText(const std::vector<BenchResult>& results) {
   std::string text;
   for (const BenchResult& result : results) {
-    text += fmt::format("{} from \"{:.2f};{:.2f}\"{}\n", result.world, result.start_m.x(), result.start_m.y(),
-                        result.bound_m > 0.0 ? fmt::format(", bound {:.1f} m", result.bound_m) : "");
+    text += result.world;
+    if (result.start_m) text += fmt::format(" from \"{:.2f};{:.2f}\"", result.start_m->x(), result.start_m->y());
+    text += result.bound_m > 0.0 ? fmt::format(", bound {:.1f} m\n", result.bound_m) : "\n";
     text +=
         "  explorer           explore s   path m    home s   path m  of bound  calls  viewpoints  longest call ms\n";
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;
       text +=
-          fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16.0f}{}\n", entry.explorer,
-                      f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), f.calls,
-                      f.viewpoints, 1e3 * f.longest_call_s, f.complete ? "" : "  FAILED: " + f.failure);
+          fmt::format("  {:<18} {:>9.1f} {:>8.1f} {:>9.1f} {:>8.1f} {:>9} {:>6} {:>11} {:>16}{}\n", entry.explorer,
+                      f.explore_s, f.explore_m, f.total_s, f.total_m, shareOfBound(f, result.bound_m), ifTold(f.calls),
+                      ifTold(f.viewpoints), ifTold(1e3 * f.longest_call_s), f.complete ? "" : "  FAILED: " + f.failure);
     }
   }
   if (results.empty()) return text;
@@ -79,10 +83,8 @@ std::string benchText(const std::vector<BenchResult>& results) {
 std::string benchJson(const std::vector<BenchResult>& results) {
   nlohmann::json json = nlohmann::json::array();
   for (const BenchResult& result : results) {
-    nlohmann::json world{{"world", result.world},
-                         {"start", {result.start_m.x(), result.start_m.y()}},
-                         {"bound_m", result.bound_m},
-                         {"flights", nlohmann::json::array()}};
+    nlohmann::json world{{"world", result.world}, {"bound_m", result.bound_m}, {"flights", nlohmann::json::array()}};
+    if (result.start_m) world["start"] = {result.start_m->x(), result.start_m->y()};
     for (const BenchFlight& entry : result.flights) {
       const evaluation::FlatFlight& f = entry.flight;
       world["flights"].push_back({{"explorer", entry.explorer},

@@ -1,6 +1,7 @@
 // What `swiftlet explore-bench` prints.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct BenchFlight {
 
 struct BenchResult {
   std::string world;
-  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> start_m;  ///< nullopt of a flight: where its scenario says.
   double bound_m = 0.0;  ///< Length of the shortest tour found with the whole map known; 0: not asked for.
   std::vector<BenchFlight> flights;
 };

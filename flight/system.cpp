@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -19,6 +20,7 @@
 #include "common/data_paths.hpp"
 #include "common/error.hpp"
 #include "common/former_settings.hpp"
+#include "common/geometry.hpp"
 #include "common/misleading.hpp"
 #include "common/read_bytes.hpp"
 #include "control/controllers/lqr.hpp"
@@ -39,6 +41,12 @@ std::string namesIn(const std::string& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(data / "config" / folder, error))
       if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
   return names.empty() || names.size() > kMost ? "" : fmt::format("config/{} has {}", folder, fmt::join(names, ", "));
+}
+
+planning::CameraFrustum frustumOf(const common::RgbdCameraConfig& camera) {
+  const double across = std::tan(0.5 * camera.field_of_view_deg * common::kRadPerDeg);
+  return {across, across * camera.height_px / camera.width_px, camera.mount.pitch_deg * common::kRadPerDeg,
+          camera.range_min_m, camera.range_max_m};
 }
 
 bool isPath(const std::string& name) { return name.find_first_of("/.") != std::string::npos; }
@@ -361,6 +369,7 @@ System loadSystem(const std::string& name) {
   system.laser = readFile<common::LaserConfig>(files.at("laser"));
   if (const auto file = files.find("rgbd_camera"); file != files.end())
     system.rgbd_camera = readFile<common::RgbdCameraConfig>(file->second);
+  if (system.rgbd_camera) system.config.autonomy.execution.planning.explorer.camera = frustumOf(*system.rgbd_camera);
   if (const auto file = files.find("vertical_laser"); file != files.end())
     system.vertical_laser = readFile<common::LaserConfig>(file->second);
   std::optional<common::config::YamlReader> model;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "autonomy/planning_jobs/seen_volume.hpp"
 #include "common/segment.hpp"
 #include "planning/exploration/held_path.hpp"
 #include "planning/search/admission.hpp"
@@ -137,6 +138,8 @@ void PlanningWorker::explore(const PlanningRequest& request, const ExploreReques
   input.lost_map_m = question.lost_map_m;
   input.leave_building = question.leave_building;
   input.home_map_m = Eigen::Vector2d::Zero();  // As pathHome_m(): where it took off.
+  if (request.map3d && explorer_.kind == planning::ExplorerKind::kCameraTour)
+    input.volume = {seenVolume(*request.map3d), request.map3d->T_map_camera.position_m.z()};
   // A viewpoint whose path leads through the open is left for another one.
   constexpr int kTries = 3;
   planning::ExplorationResult result;

@@ -6,7 +6,8 @@
 namespace swiftlet::planning {
 
 void ExplorerConfig::describe(common::config::Fields& fields) {
-  fields.choice("kind", kind, {"utility", "nearest_frontier", "tour"}, "How the next viewpoint is chosen.");
+  fields.choice("kind", kind, {"utility", "nearest_frontier", "tour", "camera_tour"},
+                "How the next viewpoint is chosen.");
 }
 
 const char* toString(ExplorerKind kind) {
@@ -17,6 +18,8 @@ const char* toString(ExplorerKind kind) {
       return "nearest frontier";
     case ExplorerKind::kTour:
       return "tour";
+    case ExplorerKind::kCameraTour:
+      return "camera tour";
   }
   return "unknown";
 }
@@ -29,6 +32,8 @@ ExplorationResult explore(const ExplorationInput& input, const ExplorerConfig& c
       return exploreNearestFrontier(input, config);
     case ExplorerKind::kTour:
       return exploreByTour(input, config);
+    case ExplorerKind::kCameraTour:
+      return exploreByCameraTour(input, config);
   }
   SWIFTLET_CHECK(false, static_cast<int>(config.kind));
   return {};

@@ -15,6 +15,10 @@
 #include "common/world/frontier.hpp"
 #include "planning/costs/cost_map.hpp"
 
+namespace swiftlet::common {
+class VoxelMap;
+}
+
 namespace swiftlet::planning {
 
 /// A pose to look from.
@@ -23,12 +27,21 @@ struct Viewpoint {
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();  ///< The unknown place to be seen.
   double gain_m2 = 0.0;                                    ///< Unknown area expected to be seen.
   double utility = 0.0;                                    ///< The viewpoint with the greatest one is chosen.
+  /// Unknown volume expected to be seen by the camera, of a viewpoint of the camera; 0 for one of the laser.
+  double gain_m3 = 0.0;
 };
 
 /// An attempt to see an unknown place, and the place it was made from.
 struct ExplorationAttempt {
   Eigen::Vector2d target_map_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d place_map_m = Eigen::Vector2d::Zero();
+  bool by_camera = false;  ///< The target is then straight ahead of the camera.
+};
+
+/// What a depth camera has seen so far.
+struct SeenVolume {
+  std::shared_ptr<const common::VoxelMap> voxels;  ///< In `map`; null before anything was seen.
+  double camera_height_m = 1.0;                    ///< Of the camera at the height of flight.
 };
 
 struct ExplorationInput {
@@ -42,19 +55,27 @@ struct ExplorationInput {
   /// Whether frontiers with too few walls around to know the position there are explored as well.
   bool leave_building = false;
   std::optional<Eigen::Vector2d> home_map_m = std::nullopt;  ///< Where the flight ends; nullopt: not known.
+  SeenVolume volume = {};
 };
 
 struct ExplorationResult {
   std::vector<common::Frontier> frontiers;  ///< All frontiers, each with its reason; the open ones first, best first.
   std::optional<Viewpoint> next;            ///< nullopt when done, or when the vehicle cannot leave its place.
-  bool done = false;                        ///< No frontier is open.
+  bool done = false;                        ///< No frontier is open, and no volume is left for the camera.
   bool kept_current = false;                ///< `next` is the viewpoint that was given as current.
   double explored_area_m2 = 0.0;            ///< Area of the known free cells.
   /// For people, such as "4 open frontiers, next viewpoint (3.2, 1.5) for 2.0 m2".
   std::string reason;
 };
 
-enum class ExplorerKind { kUtility, kNearestFrontier, kTour };
+enum class ExplorerKind { kUtility, kNearestFrontier, kTour, kCameraTour };
+
+/// What a camera sees that is carried level: a pyramid of rays, ahead and down by its pitch.
+struct CameraFrustum {
+  double tangent_across = 0.0, tangent_up = 0.0;  ///< Of half of its fields of view.
+  double pitch_down_rad = 0.0;
+  double range_min_m = 0.0, range_max_m = 0.0;
+};
 
 /// For people, such as "nearest frontier".
 const char* toString(ExplorerKind kind);
@@ -63,6 +84,7 @@ struct ExplorerConfig {
   ExplorerKind kind = ExplorerKind::kUtility;
   double laser_range_m = 12.0;             ///< Range within which a viewpoint is expected to see.
   double laser_field_of_view_deg = 270.0;  ///< Angle centred on the heading that a viewpoint is expected to see.
+  std::optional<CameraFrustum> camera = std::nullopt;  ///< Of the vehicle's depth camera, if it has one.
 
   void describe(common::config::Fields& fields);
 };
@@ -87,9 +109,14 @@ struct ExplorerConfig {
 /// kept while something is left to be seen from it and no other tour saves a stated share.
 [[nodiscard]] ExplorationResult exploreByTour(const ExplorationInput& input, const ExplorerConfig& config);
 
+/// The same tour with viewpoints of the camera in it, until nothing is left in the volume over the free floor that the
+/// camera could see from the height of flight (the same sources; Bircher 2016, "Receding horizon next-best-view planner
+/// for 3D exploration", ICRA, for the gain). Without a camera it is exploreByTour().
+[[nodiscard]] ExplorationResult exploreByCameraTour(const ExplorationInput& input, const ExplorerConfig& config);
+
 /// The attempt to record once the viewpoint was reached and what is seen from it is in the map.
 inline ExplorationAttempt attemptFrom(const Viewpoint& viewpoint) {
-  return {viewpoint.target_map_m, viewpoint.pose_map.position_m()};
+  return {viewpoint.target_map_m, viewpoint.pose_map.position_m(), viewpoint.gain_m3 > 0.0};
 }
 
 }  // namespace swiftlet::planning

@@ -22,6 +22,16 @@ double travelTime_s(double path_m, double from_yaw_rad, double to_yaw_rad) {
 }
 
 std::optional<ViewpointOption> ViewpointOptions::bestOf(const SeenFrontier& seen) {
+  return chosenOf(seen, [](const ViewpointOption& a, const ViewpointOption& b) { return a.utility > b.utility; });
+}
+
+/// Lookouts are ordered by rings around the frontier; the first one is in the nearest ring.
+std::optional<ViewpointOption> ViewpointOptions::nearestOf(const SeenFrontier& seen) {
+  return chosenOf(seen, [](const ViewpointOption&, const ViewpointOption&) { return false; });
+}
+
+template <typename IsBetter>
+std::optional<ViewpointOption> ViewpointOptions::chosenOf(const SeenFrontier& seen, IsBetter&& is_better) {
   std::optional<ViewpointOption> best;
   bool best_is_new = false;
   double greatest_gain_m2 = 0.0;
@@ -30,7 +40,7 @@ std::optional<ViewpointOption> ViewpointOptions::bestOf(const SeenFrontier& seen
     greatest_gain_m2 = std::max(greatest_gain_m2, option.view.gain_m2);
     if (option.view.gain_m2 < kMinGain_m2) continue;
     const bool is_new = !survey_.lookedFrom(lookout);
-    if (best && (is_new != best_is_new ? best_is_new : option.utility <= best->utility)) continue;
+    if (best && (is_new != best_is_new ? best_is_new : !is_better(option, *best))) continue;
     best = option;
     best_is_new = is_new;
   }

@@ -40,6 +40,8 @@ class ViewpointOptions {
   /// The place of greatest utility, where an attempt was made only if there is no other. A frontier of which no
   /// reachable place sees enough is closed.
   std::optional<ViewpointOption> bestOf(const SeenFrontier& seen);
+  /// The same for the place nearest to the frontier, which sees most of what is behind it.
+  std::optional<ViewpointOption> nearestOf(const SeenFrontier& seen);
   /// The current viewpoint, if it is for one of the given frontiers and something is left to be seen from it.
   std::optional<ViewpointOption> current(const std::vector<std::size_t>& frontiers) const;
   /// The greatest utility that a viewpoint at least this far away can have: it sees the unknown at the end of its range
@@ -49,6 +51,8 @@ class ViewpointOptions {
   Viewpoint viewpointOf(const ViewpointOption& option) const;
 
  private:
+  template <typename IsBetter>
+  std::optional<ViewpointOption> chosenOf(const SeenFrontier& seen, IsBetter&& is_better);
   ViewpointOption optionAt(std::size_t frontier, const Lookout& lookout) const;
   void leaveUnseen(std::size_t frontier, double greatest_gain_m2);
 

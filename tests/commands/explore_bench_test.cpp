@@ -64,6 +64,23 @@ TEST_F(ExploreBench, GivesTheFiguresAsJson) {
   EXPECT_GT(json[0]["bound_m"].get<double>(), 0.5);
 }
 
+TEST_F(ExploreBench, FliesTheSimulatedVehicle) {
+  const ProgramEnd made = runSwiftlet({"world", floorPlan("a"), "--out", path("a.sdf"), "--start", "1;1;0"});
+  ASSERT_EQ(made.exit_code, 0) << describe(made);
+  const ProgramEnd end =
+      bench({path("a.sdf"), "--fly", "--explorer", "tour", "--seed", "7", "--out", path("runs"), "--json"});
+  EXPECT_EQ(end.exit_code, 0) << describe(end);
+  const auto json = nlohmann::json::parse(end.out, nullptr, false);
+  ASSERT_TRUE(json.is_array() && json.size() == 1) << end.out;
+  EXPECT_EQ(json[0]["world"], "a.sdf seed 7");
+  const auto& flight = json[0]["flights"][0];
+  EXPECT_EQ(flight["complete"], true) << flight["failure"];
+  EXPECT_GT(flight["explore_s"].get<double>(), 1.0);
+  EXPECT_GT(flight["total_s"].get<double>(), flight["explore_s"].get<double>());
+  EXPECT_GT(flight["explore_m"].get<double>(), 1.0);
+  EXPECT_TRUE(std::filesystem::exists(path("runs/a-tour-007/report.html")));
+}
+
 TEST_F(ExploreBench, RefusesWhatIsNoMap) {
   expectRefused(bench({path("none.yaml")}), "none.yaml");
   std::filesystem::create_directory(path("empty"));
@@ -71,6 +88,7 @@ TEST_F(ExploreBench, RefusesWhatIsNoMap) {
   expectRefused(bench({floorPlan("a"), "--explorer", "fast"}), "`fast` is no explorer");
   expectRefused(bench({floorPlan("a"), "--start", "1"}), "--start: `1` is no place");
   expectRefused(bench({write("cloud.ply", "ply\n")}), "is a map in space");
+  expectRefused(bench({path("cloud.ply"), "--fly"}), "is neither a world nor a trial");
 }
 
 }  // namespace

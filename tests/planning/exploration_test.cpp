@@ -140,6 +140,17 @@ TEST_F(TourOfTwo, EndsNearHome) {
   EXPECT_LT(firstX(5.5, 9.0), 3.0);
 }
 
+TEST_F(TourOfTwo, LooksFromNearSoThatNothingIsLeftToReturnFor) {
+  input.pose_map = {8.0, 2.5, 0.0};
+  const auto distance_m = [](const ExplorationResult& result) {
+    return (result.next->pose_map.position_m() - result.next->target_map_m).norm();
+  };
+  const ExplorationResult tour = exploreByTour(input, near_sighted), utility = exploreByUtility(input, near_sighted);
+  ASSERT_TRUE(tour.next && utility.next);
+  EXPECT_LT(distance_m(tour), 1.2);
+  EXPECT_GT(distance_m(utility), 1.2) << "from here it sees a part of it sooner";
+}
+
 TEST_F(TourOfTwo, KeepsItsViewpointUnlessAnotherOrderIsMuchBetter) {
   input.pose_map = {5.5, 2.5, 0.0};
   input.home_map_m = Eigen::Vector2d(1.0, 2.5);
