@@ -90,7 +90,7 @@ tree::NodeManifest FindHouse::manifest() {
   tree::NodeManifest manifest{
       .id = "FindHouse",
       .kind = tree::NodeKind::kAction,
-      .ports = {{.name = "name",
+      .ports = {{.name = "house_name",
                  .type = PortType::kString,
                  .default_value = "house",
                  .description = "Name of the house, as the profile has it."},
@@ -130,7 +130,7 @@ tree::NodeManifest FindHouse::manifest() {
 
 FindHouse::FindHouse(const tree::NodeSetup& setup)
     : FlightLeaf(setup),
-      name_(setup, "name"),
+      name_(setup, "house_name"),
       expected_(setup, "expected"),
       height_m_(setup, "height_m"),
       distance_m_(setup, "distance_m"),

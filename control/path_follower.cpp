@@ -33,8 +33,7 @@ constexpr double kAtRest_m_s = 1e-3;   ///< A reference this slow has stopped.
 
 PathFollower::PathFollower(const Config& config)
     : config_(config),
-      speed_limit_m_s_(std::numeric_limits<double>::infinity()),
-      pace_m_s_(std::numeric_limits<double>::infinity()),
+      caps_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
       yaw_(config.yaw_rate_deg_s) {
   reset(Eigen::Vector3d::Zero(), 0.0);
 }
@@ -54,7 +53,7 @@ void PathFollower::lay(std::vector<Eigen::Vector3d> points, double acceleration_
               kFirmer * limits().acceleration_m_s2);
   follows_path_ = false;
   faced_.lay({});
-  pace_m_s_ = std::numeric_limits<double>::infinity();
+  caps_.pace_m_s = std::numeric_limits<double>::infinity();
   velocity_carrot_.reset();
 }
 
@@ -98,10 +97,10 @@ void PathFollower::stop() {
 }
 
 void PathFollower::setSpeedLimit(double speed_m_s) {
-  speed_limit_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
+  caps_.limit_m_s = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
 }
 
-void PathFollower::setPace(double speed_m_s) { pace_m_s_ = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s); }
+void PathFollower::setPace(double speed_m_s) { caps_.pace_m_s = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s); }
 
 void PathFollower::setShares(double speed, double acceleration) {
   speed_share_ = speed;
@@ -128,7 +127,7 @@ const Reference& PathFollower::advance(double dt_s) {
 }
 
 double PathFollower::allowedSpeed_m_s() const {
-  double speed_m_s = std::min({speed_share_ * limits().speed_m_s, speed_limit_m_s_, pace_m_s_});
+  double speed_m_s = std::min({speed_share_ * limits().speed_m_s, caps_.limit_m_s, caps_.pace_m_s});
   const Eigen::Vector3d line_m = carrot_.line_m();
   const double length_m = line_m.norm();
   if (std::abs(line_m.z()) > 1e-6) speed_m_s = std::min(speed_m_s, climbSpeed_m_s() * length_m / std::abs(line_m.z()));

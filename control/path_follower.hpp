@@ -108,8 +108,10 @@ class PathFollower {
 
   Config config_;
   common::FlightMode mode_ = common::FlightMode::kCareful;
-  double speed_limit_m_s_;
-  double pace_m_s_;
+  struct Caps {
+    double limit_m_s;  ///< Of the reactive layer.
+    double pace_m_s;
+  } caps_;
   double speed_share_ = 1.0, acceleration_share_ = 1.0;
   PathCarrot carrot_;
   FacedPath faced_;

@@ -13,7 +13,7 @@
 namespace swiftlet::planning {
 namespace {
 
-constexpr int kFraction = 40;  ///< Bits of DStarLite::reciprocal_ after the point.
+constexpr int kFraction = 40;  ///< Bits of DStarLite::rows_.reciprocal after the point.
 
 }  // namespace
 
@@ -32,7 +32,7 @@ tl::expected<CellPlan, PlanFailure> DStarLite::planCells(const CostMap& map, con
 
   const std::int32_t start = map.indexOf(chain->back()), goal = map.indexOf(map.cellAt(goal_map_m));
   constexpr std::uint32_t kGreatestOffset = 1u << 30;
-  const bool kept = map.rect() == rect_ && map.resolution_m() == resolution_m_ && goal == goal_ &&
+  const bool kept = map.rect() == rect_ && map.resolution_m() == rows_.resolution_m && goal == goal_ &&
                     map.steps().heights_cm.size() == steps_.heights_cm.size() &&
                     map.steps().cost_per_cm == steps_.cost_per_cm && key_offset_ < kGreatestOffset;
   if (kept) {
@@ -56,12 +56,12 @@ tl::expected<CellPlan, PlanFailure> DStarLite::planCells(const CostMap& map, con
 
 void DStarLite::restart(const CostMap& map, int goal) {
   rect_ = map.rect();
-  resolution_m_ = map.resolution_m();
-  stride_ = map.rect().width();
+  rows_.resolution_m = map.resolution_m();
+  rows_.stride = map.rect().width();
   // Exact for every index of the rectangle.
   constexpr std::uint64_t kOne = std::uint64_t{1} << kFraction;
-  SWIFTLET_CHECK(map.costs().size() * static_cast<std::size_t>(stride_) < kOne, map.costs().size(), stride_);
-  reciprocal_ = (kOne + static_cast<std::uint64_t>(stride_) - 1) / static_cast<std::uint64_t>(stride_);
+  SWIFTLET_CHECK(map.costs().size() * static_cast<std::size_t>(rows_.stride) < kOne, map.costs().size(), rows_.stride);
+  rows_.reciprocal = (kOne + static_cast<std::uint64_t>(rows_.stride) - 1) / static_cast<std::uint64_t>(rows_.stride);
   start_offset_ = offsetOf(start_);
   goal_ = goal;
   key_offset_ = 0;
@@ -85,7 +85,7 @@ void DStarLite::restart(const CostMap& map, int goal) {
 void DStarLite::adoptChanges(const CostMap& map) {
   std::vector<std::int32_t> affected;
   const auto add = [&](std::int32_t index) {
-    for (const int row : {index - stride_, index, index + stride_}) {
+    for (const int row : {index - rows_.stride, index, index + rows_.stride}) {
       for (int i = row - 1; i <= row + 1; ++i) {
         if (marked_[static_cast<std::size_t>(i)]) continue;
         marked_[static_cast<std::size_t>(i)] = 1;
@@ -212,17 +212,17 @@ std::uint8_t DStarLite::movesFrom(std::int32_t index) const {
   const CostMap::Cost* here = &cost_[static_cast<std::size_t>(index)];
   if (*here == CostMap::kLethal) return 0;
   const auto open = [&](int step) { return here[step] != CostMap::kLethal ? 1u : 0u; };
-  const unsigned south = open(-stride_), west = open(-1), east = open(1), north = open(stride_);
-  const unsigned moves = (south & west & open(-stride_ - 1)) | south << 1 | (south & east & open(-stride_ + 1)) << 2 |
-                         west << 3 | east << 4 | (north & west & open(stride_ - 1)) << 5 | north << 6 |
-                         (north & east & open(stride_ + 1)) << 7;
+  const unsigned south = open(-rows_.stride), west = open(-1), east = open(1), north = open(rows_.stride);
+  const unsigned moves = (south & west & open(-rows_.stride - 1)) | south << 1 | (south & east & open(-rows_.stride + 1)) << 2 |
+                         west << 3 | east << 4 | (north & west & open(rows_.stride - 1)) << 5 | north << 6 |
+                         (north & east & open(rows_.stride + 1)) << 7;
   return static_cast<std::uint8_t>(moves);
 }
 
 template <class Visit>
 inline void DStarLite::forEdges(std::int32_t index, std::uint8_t moves, Visit visit) const {
-  const std::array<std::int32_t, kNeighbours> steps{-stride_ - 1, -stride_,     -stride_ + 1, -1,
-                                                    1,            stride_ - 1, stride_,      stride_ + 1};
+  const std::array<std::int32_t, kNeighbours> steps{-rows_.stride - 1, -rows_.stride,     -rows_.stride + 1, -1,
+                                                    1,            rows_.stride - 1, rows_.stride,      rows_.stride + 1};
   constexpr unsigned kDiagonals = 0b10100101;
   const std::int32_t cost = cost_[static_cast<std::size_t>(index)];
   for (unsigned left = moves; left != 0; left &= left - 1) {
@@ -245,8 +245,8 @@ void DStarLite::lookAhead(std::int32_t index, Vertex& vertex) {
 }
 
 inline common::CellIndex DStarLite::offsetOf(std::int32_t index) const {
-  const auto row = static_cast<std::int32_t>(static_cast<std::uint64_t>(index) * reciprocal_ >> kFraction);
-  return {index - row * stride_, row};
+  const auto row = static_cast<std::int32_t>(static_cast<std::uint64_t>(index) * rows_.reciprocal >> kFraction);
+  return {index - row * rows_.stride, row};
 }
 
 inline std::int32_t DStarLite::heuristic(common::CellIndex a, common::CellIndex b) const {

@@ -95,9 +95,11 @@ class DStarLite final : public Planner {
 
   EdgeScale scale_;
   common::CellRect rect_;
-  double resolution_m_ = 0.0;
-  int stride_ = 0;
-  std::uint64_t reciprocal_ = 0;  ///< 2^40 / stride_, rounded up: divides an index without a division.
+  struct Rows {
+    double resolution_m = 0.0;
+    int stride = 0;
+    std::uint64_t reciprocal = 0;  ///< 2^40 / stride, rounded up: divides an index without a division.
+  } rows_;
   std::int32_t goal_ = -1;
   std::int32_t start_ = -1;
   common::CellIndex start_offset_;  ///< Of the start in the rectangle.

@@ -199,6 +199,7 @@ TEST_F(BadInput, AProfileThatNamesNothingOrWhatIsUnknownIsRefused) {
   const std::string system = write("mine.yaml", "vehicle: cobra\nlaser: utm\n");
   expectRefused(fly({"--headless", hop(), "--system", system}),
                 "mine\\.yaml:2:8: laser: utm: no such file.*config/sensors has firefly_stereo, firefly_stereo_ahead, "
+                "realsense_d455, "
                 "sick_lms_291, urg_04lx, utm_30lx");
 }
 
