@@ -21,12 +21,12 @@
 #include <fmt/format.h>
 
 #include "behaviors/explore_ports.hpp"
-#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/openings.hpp"
 #include "behaviors/place_around.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/views_leaf.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
@@ -37,8 +37,6 @@ using common::RecognizedObject;
 using tree::PortType;
 using tree::Status;
 
-/// Until the frames taken there are recognized: latencies of link and job.
-constexpr double kHouseLook_s = 1.2;
 constexpr double kHouseViewTolerance_m = 0.25;  ///< The picture is the same from there; nearer would take longer.
 /// A full turn, by a little less than half of a wide camera's angle of view: a house is to be seen whole.
 constexpr int kHouseTurns = 8;
@@ -48,7 +46,7 @@ constexpr double kOtherHouseSide_rad = 40.0 * common::kRadPerDeg;
 /// Where it is only expected, the middle of the house is off by so much.
 constexpr double kHouseNear_m = 3.0;
 
-class FindHouse final : public FlightLeaf {
+class FindHouse final : public ViewsLeaf {
  public:
   explicit FindHouse(const tree::NodeSetup& setup);
   static tree::NodeManifest manifest();
@@ -62,12 +60,9 @@ class FindHouse final : public FlightLeaf {
     common::ExploreIntent explore;
   };
   void onStart(tree::TickContext& context) override;
-  void onResume(tree::TickContext& context) override;
   Status act(tree::TickContext& context) override;
   tl::expected<Wanted, std::string> wanted(const FlightTick& tick) const;
   Status found(tree::TickContext& context, const RecognizedObject& house);
-  /// False when no view is left.
-  bool lookOn(FlightTick& tick, const Wanted& wanted, const RecognizedObject* candidate);
   std::optional<common::GoToIntent> nextView(const FlightTick& tick, const Wanted& wanted,
                                              const RecognizedObject* candidate);
   Status explore(tree::TickContext& context, const Wanted& wanted);
@@ -81,8 +76,6 @@ class FindHouse final : public FlightLeaf {
   std::optional<common::Pose2> T_map_start_;
   int turns_ = 0;                  ///< Views from where it began.
   std::vector<double> sides_rad_;  ///< Bearings from the house of the places from which it looked.
-  std::optional<common::GoToIntent> view_;
-  std::optional<common::Time> looks_since_;
   bool explored_ = false;
 };
 
@@ -129,7 +122,7 @@ tree::NodeManifest FindHouse::manifest() {
 }
 
 FindHouse::FindHouse(const tree::NodeSetup& setup)
-    : FlightLeaf(setup),
+    : ViewsLeaf(setup),
       name_(setup, "house_name"),
       expected_(setup, "expected"),
       height_m_(setup, "height_m"),
@@ -139,19 +132,11 @@ FindHouse::FindHouse(const tree::NodeSetup& setup)
       place_(setup, "place") {}
 
 void FindHouse::onStart(tree::TickContext& context) {
-  FlightLeaf::onStart(context);
+  ViewsLeaf::onStart(context);
   T_map_start_.reset();
   turns_ = 0;
   sides_rad_.clear();
-  view_.reset();
-  looks_since_.reset();
   explored_ = false;
-}
-
-/// It flies to the same view again.
-void FindHouse::onResume(tree::TickContext& context) {
-  FlightLeaf::onResume(context);
-  looks_since_.reset();
 }
 
 tl::expected<FindHouse::Wanted, std::string> FindHouse::wanted(const FlightTick& tick) const {
@@ -183,7 +168,7 @@ Status FindHouse::act(tree::TickContext& context) {
     if (house->confirmed) return found(context, *house);
     if (candidate == nullptr) candidate = house;
   }
-  if (lookOn(tick, *wanted, candidate)) return Status::kRunning;
+  if (lookOn(tick, [&] { return nextView(tick, *wanted, candidate); })) return Status::kRunning;
   return explore(context, *wanted);
 }
 
@@ -199,24 +184,6 @@ Status FindHouse::found(tree::TickContext& context, const RecognizedObject& hous
                        tick.flight.world->map->names().of(Eigen::Vector2d(middle_map_m.head<2>())), house.sigma_m(),
                        common::yawOf(house.T_map_object.rotation) / common::kRadPerDeg, house.looks));
   return Status::kSuccess;
-}
-
-bool FindHouse::lookOn(FlightTick& tick, const Wanted& wanted, const RecognizedObject* candidate) {
-  if (looks_since_) {
-    emitHold(tick);
-    if ((tick.flight.now - *looks_since_).seconds() < kHouseLook_s) return true;
-    view_.reset();
-    looks_since_.reset();
-  }
-  if (!view_) {
-    view_ = nextView(tick, wanted, candidate);
-    if (!view_) return false;
-    renewIntent();
-  }
-  emitIntent(tick, *view_);
-  if (intentState(tick) == common::IntentState::kSucceeded) looks_since_ = tick.flight.now;
-  if (intentState(tick) == common::IntentState::kFailed) view_.reset();
-  return true;
 }
 
 /// First from where it began, then the nearest free place on another side.

@@ -19,11 +19,11 @@
 
 #include <fmt/format.h>
 
-#include "behaviors/flight_leaf.hpp"
 #include "behaviors/leaf_traits.hpp"
 #include "behaviors/named_places.hpp"
 #include "behaviors/openings.hpp"
 #include "behaviors/ports.hpp"
+#include "behaviors/views_leaf.hpp"
 #include "common/world/map_layer.hpp"
 #include "common/world/vehicle_layer.hpp"
 
@@ -34,8 +34,6 @@ using common::RecognizedObject;
 using tree::PortType;
 using tree::Status;
 
-/// Until the frames taken there are recognized: latencies of link and job.
-constexpr double kWindowLook_s = 1.2;
 /// Looks count from places that are 0.2 m apart: perception/recognition/object_tracker.cpp.
 constexpr double kBeside_m = 0.35;
 /// The picture is the same from there; nearer would take longer.
@@ -51,7 +49,7 @@ struct WindowView {
   double turn_rad = 0.0;
 };
 
-class FindWindow final : public FlightLeaf {
+class FindWindow final : public ViewsLeaf {
  public:
   explicit FindWindow(const tree::NodeSetup& setup);
   static tree::NodeManifest manifest();
@@ -63,12 +61,9 @@ class FindWindow final : public FlightLeaf {
     double within_m, width_m, clearance_m;
   };
   void onStart(tree::TickContext& context) override;
-  void onResume(tree::TickContext& context) override;
   Status act(tree::TickContext& context) override;
   tl::expected<Wanted, std::string> wanted(const FlightTick& tick) const;
   Status found(tree::TickContext& context, const RecognizedObject& window);
-  /// False when no view is left.
-  bool lookOn(FlightTick& tick, const Wanted& wanted, const RecognizedObject* candidate);
   std::optional<common::GoToIntent> nextView(const FlightTick& tick, const Wanted& wanted,
                                              const RecognizedObject* candidate);
   static std::string whyNot(const FlightTick& tick, const Eigen::Vector2d& about_map_m, double within_m);
@@ -79,8 +74,6 @@ class FindWindow final : public FlightLeaf {
 
   std::optional<common::Pose2> T_map_start_;  ///< Where it stands.
   std::size_t views_ = 0;                     ///< How many it has looked from.
-  std::optional<common::GoToIntent> view_;
-  std::optional<common::Time> looks_since_;
 };
 
 /// The views in their order. `knows_direction`: there is a place to look at.
@@ -135,7 +128,7 @@ tree::NodeManifest FindWindow::manifest() {
 }
 
 FindWindow::FindWindow(const tree::NodeSetup& setup)
-    : FlightLeaf(setup),
+    : ViewsLeaf(setup),
       near_(setup, "near"),
       within_m_(setup, "within_m"),
       width_m_(setup, "width_m"),
@@ -144,17 +137,9 @@ FindWindow::FindWindow(const tree::NodeSetup& setup)
       place_(setup, "place") {}
 
 void FindWindow::onStart(tree::TickContext& context) {
-  FlightLeaf::onStart(context);
+  ViewsLeaf::onStart(context);
   T_map_start_.reset();
   views_ = 0;
-  view_.reset();
-  looks_since_.reset();
-}
-
-/// It flies to the same view again.
-void FindWindow::onResume(tree::TickContext& context) {
-  FlightLeaf::onResume(context);
-  looks_since_.reset();
 }
 
 tl::expected<FindWindow::Wanted, std::string> FindWindow::wanted(const FlightTick& tick) const {
@@ -190,7 +175,8 @@ Status FindWindow::act(tree::TickContext& context) {
   }
   if (closed != nullptr && candidate == nullptr && wanted->near_map_m)
     return fail(context, fmt::format("window {} is closed", closed->id));
-  if (!lookOn(tick, *wanted, candidate)) return fail(context, whyNot(tick, about_map_m, within_m));
+  if (!lookOn(tick, [&] { return nextView(tick, *wanted, candidate); }))
+    return fail(context, whyNot(tick, about_map_m, within_m));
   return Status::kRunning;
 }
 
@@ -205,24 +191,6 @@ Status FindWindow::found(tree::TickContext& context, const RecognizedObject& win
            fmt::format("open, {:.2f} m wide, at {}, by {} looks", window.size_m.x(),
                        tick.flight.world->map->names().of(Eigen::Vector2d(middle_map_m.head<2>())), window.looks));
   return Status::kSuccess;
-}
-
-bool FindWindow::lookOn(FlightTick& tick, const Wanted& wanted, const RecognizedObject* candidate) {
-  if (looks_since_) {
-    emitHold(tick);
-    if ((tick.flight.now - *looks_since_).seconds() < kWindowLook_s) return true;
-    view_.reset();
-    looks_since_.reset();
-  }
-  if (!view_) {
-    view_ = nextView(tick, wanted, candidate);
-    if (!view_) return false;
-    renewIntent();
-  }
-  emitIntent(tick, *view_);
-  if (intentState(tick) == common::IntentState::kSucceeded) looks_since_ = tick.flight.now;
-  if (intentState(tick) == common::IntentState::kFailed) view_.reset();
-  return true;
 }
 
 /// Views from other places face the candidate. Turns on the spot are left out then: they show nothing new of it.

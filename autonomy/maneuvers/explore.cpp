@@ -51,7 +51,8 @@ class Explore final : public PathManeuver {
   Progress waitFor(const planning::ExplorationResult& result, const std::optional<Blockage>& blockage,
                    common::Time now);
   bool forgetLooksPast(const Blockage& gone);
-  bool isToBeLookedThrough(const Eigen::Vector2d& gap_map_m, common::Time now) const;
+  /// The first look at what is behind that gap, or now if it is the first.
+  common::Time looksThroughSince(const Eigen::Vector2d& gap_map_m, common::Time now);
   Progress lookThrough(common::Time now);
   Progress explored(const planning::ExplorationResult& result, common::Time now);
   void tellLeft(common::Time now) const;
@@ -153,7 +154,7 @@ Progress Explore::answered(const PlanningAnswer& answer, Time now, const common:
     flight_.abandon();
     gap_map_m_ = answer.gap_map_m;
     if (!result.done || answer.blockage) return waitFor(result, answer.blockage, now);
-    if (gap_map_m_ && isToBeLookedThrough(*gap_map_m_, now)) return lookThrough(now);
+    if (gap_map_m_ && (now - looksThroughSince(*gap_map_m_, now)).seconds() < kLookThrough_s) return lookThrough(now);
     patience_.reset();
     if (setup_.controller.stopped() && ++done_answers_ >= kDoneAnswers) return explored(result, now);
   }
@@ -196,20 +197,18 @@ bool Explore::forgetLooksPast(const Blockage& gone) {
 }
 
 /// Each gap for a while: a look that opens something else to explore would be repeated after that for ever.
-bool Explore::isToBeLookedThrough(const Eigen::Vector2d& gap_map_m, Time now) const {
+Time Explore::looksThroughSince(const Eigen::Vector2d& gap_map_m, Time now) {
   const auto look = std::find_if(looks_through_.begin(), looks_through_.end(),
                                  [&](const Look& one) { return (one.gap_map_m - gap_map_m).norm() < kSameGap_m; });
-  return look == looks_through_.end() || (now - look->since).seconds() < kLookThrough_s;
+  if (look != looks_through_.end()) return look->since;
+  looks_through_.push_back({gap_map_m, now});
+  setup_.memory.log.info(now, kFlightSource, "looks once more at what is behind a gap",
+                         setup_.desk.costMap()->names().of(gap_map_m));
+  return now;
 }
 
 /// Somebody in a door leaves a gap beside him, and so does what is left in the map of who has gone.
 Progress Explore::lookThrough(Time now) {
-  if (std::none_of(looks_through_.begin(), looks_through_.end(),
-                   [&](const Look& one) { return (one.gap_map_m - *gap_map_m_).norm() < kSameGap_m; })) {
-    looks_through_.push_back({*gap_map_m_, now});
-    setup_.memory.log.info(now, kFlightSource, "looks once more at what is behind a gap",
-                           setup_.desk.costMap()->names().of(*gap_map_m_));
-  }
   patience_.reset();  // The look has an end of its own.
   patience_.failed(now, std::nullopt);
   return Progress::running("looks at what is behind a gap");

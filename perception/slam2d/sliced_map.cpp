@@ -263,8 +263,9 @@ void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, Me
   const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
   // A single end may be noise of a height or a range.
   const bool confirmed = ended && value > config_.hit_steps;
-  const bool low_changed = ended ? confirmed && meetLow(slice, cell, stamp) : low_.passed(cell, slice, stamp);
-  if (ended) columns_.ended(cell, confirmed ? metExtent(slice, cell) : Columns::Extent{});
+  const bool outline = confirmed && isOutline(cell);
+  const bool low_changed = ended ? confirmed && meetLow(slice, cell, outline, stamp) : low_.passed(cell, slice, stamp);
+  if (ended) columns_.ended(cell, confirmed ? metExtent(slice, cell, outline) : Columns::Extent{});
   // An unchanged cell is not written, so that its tile stays shared with the snapshots.
   if (value != old) grid.set(cell, value);
   if (low_changed)
@@ -282,8 +283,8 @@ bool SlicedMap::isGlass(CellIndex cell) const {
 }
 
 /// Beams ended in the cell in that slice. Returns true if what is known of low obstacles there has changed.
-bool SlicedMap::meetLow(int slice, CellIndex cell, common::Time stamp) {
-  if (slice < scan_.laser_slice) return !isOutline(cell) && low_.hit(cell, slice, stamp);
+bool SlicedMap::meetLow(int slice, CellIndex cell, bool outline, common::Time stamp) {
+  if (slice < scan_.laser_slice) return !outline && low_.hit(cell, slice, stamp);
   low_.reachesUp(cell);
   return false;
 }
@@ -300,8 +301,8 @@ bool SlicedMap::isOutline(CellIndex cell) const {
 }
 
 /// What a beam that ended in the cell in that slice tells of the heights of what stands there.
-Columns::Extent SlicedMap::metExtent(int slice, CellIndex cell) const {
-  const int top = isOutline(cell) ? std::max(slice, columns_.topAround(cell)) : slice;
+Columns::Extent SlicedMap::metExtent(int slice, CellIndex cell, bool outline) const {
+  const int top = outline ? std::max(slice, columns_.topAround(cell)) : slice;
   return {slice, top, slice - unsureSlices(cell)};
 }
 

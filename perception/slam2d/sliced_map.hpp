@@ -89,9 +89,9 @@ class SlicedMap {
   void drawSlice(int slice, const std::vector<SliceRay>& rays, common::Time stamp);
   void apply(int slice, common::OccupancyGrid& grid, common::CellIndex cell, Met met, common::Time stamp);
   bool isGlass(common::CellIndex cell) const;
-  bool meetLow(int slice, common::CellIndex cell, common::Time stamp);
+  bool meetLow(int slice, common::CellIndex cell, bool outline, common::Time stamp);
   bool isOutline(common::CellIndex cell) const;
-  Columns::Extent metExtent(int slice, common::CellIndex cell) const;
+  Columns::Extent metExtent(int slice, common::CellIndex cell, bool outline) const;
   void pass(int slice, common::CellIndex cell, Met met);
   void fadeAround(int slice, common::CellIndex cell);
   bool hasGone(int slice, common::CellIndex cell);

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/world/objects_layer.hpp"
-#include "tests/behaviors/flight.hpp"
+#include "tests/behaviors/objects_flight.hpp"
 
 namespace swiftlet::behaviors::testing {
 namespace {
@@ -32,47 +31,10 @@ common::RecognizedObject houseAt(int id, double x_m, double y_m, double ridge_de
 }
 
 /// A search, in a world of which nothing but houses is known.
-class Search {
+class Search : public ObjectsFlight {
  public:
-  explicit Search(const std::string& inside) : flight(inside) { flight.at(0.0, 0.0); }
-
-  Search& sees(std::vector<common::RecognizedObject> objects) {
-    objects_ = std::move(objects);
-    return *this;
-  }
-  std::string tick() {
-    flight.change([this](test::Layers& layers) {
-      layers.objects = std::make_shared<const common::ObjectsLayer>(common::ObjectsLayer{objects_});
-    });
-    return flight.tick();
-  }
-  const common::GoToIntent* goTo() const {
-    return flight.context.intent ? std::get_if<common::GoToIntent>(&flight.context.intent->kind) : nullptr;
-  }
-  /// The places that it flies to, each of which it reaches, until it explores or ends.
-  std::vector<common::GoToIntent> flyViews(int most_ticks = 1200) {
-    std::vector<common::GoToIntent> views;
-    std::uint64_t last = 0;
-    for (int i = 0; i < most_ticks; ++i) {
-      tick();
-      if (flight.last.state != common::MissionState::kRunning || !flight.context.intent) break;
-      if (std::holds_alternative<common::ExploreIntent>(flight.context.intent->kind)) break;
-      const common::GoToIntent* go_to = goTo();
-      if (go_to == nullptr) {
-        flight.stops();
-        continue;
-      }
-      if (flight.context.intent->id != last) views.push_back(*go_to);
-      last = flight.context.intent->id;
-      flight.at(go_to->goal_map_m.x(), go_to->goal_map_m.y()).succeeds();
-    }
-    return views;
-  }
-
-  Flight flight;
-
- private:
-  std::vector<common::RecognizedObject> objects_;
+  explicit Search(const std::string& inside) : ObjectsFlight(inside) { flight.at(0.0, 0.0); }
+  std::vector<common::GoToIntent> flyViews() { return ObjectsFlight::flyViews(1200); }
 };
 
 TEST(FindHouse, NeedsARecognizer) {

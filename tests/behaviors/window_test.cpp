@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/world/objects_layer.hpp"
-#include "tests/behaviors/flight.hpp"
+#include "tests/behaviors/objects_flight.hpp"
 
 namespace swiftlet::behaviors::testing {
 namespace {
@@ -36,49 +35,16 @@ common::RecognizedObject openingAt(int id, const std::string& what, double y_m, 
 }
 
 /// A flight in a world with recognized objects.
-class HouseFlight {
+class HouseFlight : public ObjectsFlight {
  public:
-  explicit HouseFlight(const std::string& inside) : flight(inside) { flight.at(2.0, 0.0); }
-  explicit HouseFlight(Mission mission) : flight(std::move(mission)) { flight.at(0.0, 0.0); }
-
-  HouseFlight& sees(std::vector<common::RecognizedObject> objects) {
-    objects_ = std::move(objects);
-    return *this;
-  }
-  std::string tick() {
-    flight.change([this](test::Layers& layers) {
-      layers.objects = std::make_shared<const common::ObjectsLayer>(common::ObjectsLayer{objects_});
-    });
-    return flight.tick();
-  }
-  const common::GoToIntent* goTo() const {
-    return flight.context.intent ? std::get_if<common::GoToIntent>(&flight.context.intent->kind) : nullptr;
-  }
-  /// The places that it flies to, each of which it reaches, until the mission ends or the intent is another one.
+  explicit HouseFlight(const std::string& inside) : ObjectsFlight(inside) { flight.at(2.0, 0.0); }
+  explicit HouseFlight(Mission mission) : ObjectsFlight(std::move(mission)) { flight.at(0.0, 0.0); }
   std::vector<common::Pose2> flyViews(int most_ticks = 400) {
     std::vector<common::Pose2> views;
-    std::uint64_t last = 0;
-    for (int i = 0; i < most_ticks; ++i) {
-      tick();
-      if (flight.last.state != common::MissionState::kRunning || !flight.context.intent) break;
-      const common::GoToIntent* go_to = goTo();
-      if (go_to == nullptr) {
-        if (!std::holds_alternative<common::HoldIntent>(flight.context.intent->kind)) break;
-        flight.stops();
-        continue;
-      }
-      if (flight.context.intent->id != last)
-        views.push_back({go_to->goal_map_m.x(), go_to->goal_map_m.y(), go_to->yaw_map_rad.value_or(0.0)});
-      last = flight.context.intent->id;
-      flight.at(go_to->goal_map_m.x(), go_to->goal_map_m.y()).succeeds();
-    }
+    for (const common::GoToIntent& view : ObjectsFlight::flyViews(most_ticks))
+      views.push_back({view.goal_map_m.x(), view.goal_map_m.y(), view.yaw_map_rad.value_or(0.0)});
     return views;
   }
-
-  Flight flight;
-
- private:
-  std::vector<common::RecognizedObject> objects_;
 };
 
 constexpr auto kIsOpen = common::Passage::kOpen;
@@ -149,7 +115,8 @@ TEST(FindWindow, AClosedOneIsNoWindowToLookForAndANarrowOneIsNone) {
   HouseFlight narrow(R"(<FindWindow near="4;0"/>)");
   auto slit = openingAt(3, "window", 0.0, kIsOpen);
   slit.size_m.x() = 0.6;
-  narrow.sees({slit}).flyViews();
+  narrow.sees({slit});
+  narrow.flyViews();
   EXPECT_EQ(narrow.flight.cause(), "FindWindow: no open window was detected from here: 1 too narrow");
 }
 
