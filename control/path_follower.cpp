@@ -100,7 +100,9 @@ void PathFollower::setSpeedLimit(double speed_m_s) {
   caps_.limit_m_s = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
 }
 
-void PathFollower::setPace(double speed_m_s) { caps_.pace_m_s = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s); }
+void PathFollower::setPace(double speed_m_s) {
+  caps_.pace_m_s = std::isnan(speed_m_s) ? 0.0 : std::max(0.0, speed_m_s);
+}
 
 void PathFollower::setShares(double speed, double acceleration) {
   speed_share_ = speed;

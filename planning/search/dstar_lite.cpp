@@ -118,9 +118,9 @@ void DStarLite::adoptChanges(const CostMap& map) {
 }
 
 /// Underconsistent vertices, and those that were reached through them, are raised here, each about once. Through the
-/// queue each would be raised by turns with its neighbours, through which it seems to be reached for a while (Ramalingam
-/// and Reps 1996 raise before they lower, too). Vertices whose keys the search did not reach are left to the queue, where
-/// most are never needed again.
+/// queue each would be raised by turns with its neighbours, through which it seems to be reached for a while
+/// (Ramalingam and Reps 1996 raise before they lower, too). Vertices whose keys the search did not reach are left to
+/// the queue, where most are never needed again.
 void DStarLite::raiseFrom(std::vector<std::int32_t>& affected) {
   const Key reach = keyOf(start_, touch(start_));
   for (std::size_t i = 0; i < affected.size(); ++i) {
@@ -202,8 +202,7 @@ CellPath DStarLite::follow(const CostMap& map) {
 
 inline DStarLite::Vertex& DStarLite::touch(std::int32_t index) {
   Vertex& vertex = vertices_[static_cast<std::size_t>(index)];
-  if (vertex.generation != generation_)
-    vertex = {kInfinity, kInfinity, -1, movesFrom(index), kNone, generation_};
+  if (vertex.generation != generation_) vertex = {kInfinity, kInfinity, -1, movesFrom(index), kNone, generation_};
   return vertex;
 }
 
@@ -213,16 +212,17 @@ std::uint8_t DStarLite::movesFrom(std::int32_t index) const {
   if (*here == CostMap::kLethal) return 0;
   const auto open = [&](int step) { return here[step] != CostMap::kLethal ? 1u : 0u; };
   const unsigned south = open(-rows_.stride), west = open(-1), east = open(1), north = open(rows_.stride);
-  const unsigned moves = (south & west & open(-rows_.stride - 1)) | south << 1 | (south & east & open(-rows_.stride + 1)) << 2 |
-                         west << 3 | east << 4 | (north & west & open(rows_.stride - 1)) << 5 | north << 6 |
+  const unsigned moves = (south & west & open(-rows_.stride - 1)) | south << 1 |
+                         (south & east & open(-rows_.stride + 1)) << 2 | west << 3 | east << 4 |
+                         (north & west & open(rows_.stride - 1)) << 5 | north << 6 |
                          (north & east & open(rows_.stride + 1)) << 7;
   return static_cast<std::uint8_t>(moves);
 }
 
 template <class Visit>
 inline void DStarLite::forEdges(std::int32_t index, std::uint8_t moves, Visit visit) const {
-  const std::array<std::int32_t, kNeighbours> steps{-rows_.stride - 1, -rows_.stride,     -rows_.stride + 1, -1,
-                                                    1,            rows_.stride - 1, rows_.stride,      rows_.stride + 1};
+  const std::array<std::int32_t, kNeighbours> steps{-rows_.stride - 1, -rows_.stride, -rows_.stride + 1, -1, 1,
+                                                    rows_.stride - 1,  rows_.stride,  rows_.stride + 1};
   constexpr unsigned kDiagonals = 0b10100101;
   const std::int32_t cost = cost_[static_cast<std::size_t>(index)];
   for (unsigned left = moves; left != 0; left &= left - 1) {

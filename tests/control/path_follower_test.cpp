@@ -316,8 +316,8 @@ double leastInTurn_m(const Things& things, bool asks, double& seconds) {
   for (auto& thing : moved.things) thing += here;
   watch.seconds = 0.0;
   watch.worst_jump_m = 0.0;
-  watch.follower.setPath({here, here + Eigen::Vector3d(0, 3, 0)}, FlightMode::kFast, std::nullopt,
-                         {}, asks ? moved.along(0.325) : common::ClearanceAlong());
+  watch.follower.setPath({here, here + Eigen::Vector3d(0, 3, 0)}, FlightMode::kFast, std::nullopt, {},
+                         asks ? moved.along(0.325) : common::ClearanceAlong());
   double least_m = std::numeric_limits<double>::infinity();
   while (!watch.follower.finished() && watch.seconds < 60.0) {
     watch.step();
@@ -352,8 +352,8 @@ TEST(PathFollower, JoinsAtTheNearestPlaceWhereTheLineAheadIsNotFree) {
   const Things thing{{{0.5, 0.45, 0}}};
   for (const bool asks : {false, true}) {
     Watch watch({0, 0.8, 0});
-    watch.follower.setPath({{0, 0, 0}, {3, 0, 0}}, FlightMode::kCareful, std::nullopt,
-                           {}, asks ? thing.along(0.325) : common::ClearanceAlong());
+    watch.follower.setPath({{0, 0, 0}, {3, 0, 0}}, FlightMode::kCareful, std::nullopt, {},
+                           asks ? thing.along(0.325) : common::ClearanceAlong());
     double least_m = 10.0;
     while (!watch.follower.finished() && watch.seconds < 60.0) {
       watch.step();
@@ -376,7 +376,8 @@ TEST(PathFollower, NeverComesNearerForAsking) {
       while (watch.follower.reference().position_odom_m.x() < 0.0) watch.step();
       const Eigen::Vector3d here = watch.follower.reference().position_odom_m;
       watch.follower.setPath({here, here + 3.0 * Eigen::Vector3d(std::cos(turn_rad), std::sin(turn_rad), 0)},
-                             FlightMode::kFast, std::nullopt, {}, asks ? things.along(0.325) : common::ClearanceAlong());
+                             FlightMode::kFast, std::nullopt, {},
+                             asks ? things.along(0.325) : common::ClearanceAlong());
       double least_m = 0.325;
       while (!watch.follower.finished() && watch.seconds < 60.0) {
         watch.step();
