@@ -9,14 +9,18 @@ using common::Time;
 Detour::Detour(const ManeuverSetup& setup, PathFlight& flight)
     : config_(setup.config), memory_(setup.memory), flight_(flight) {}
 
-bool Detour::due(Time stuck_since, Time now, bool may_go) const {
-  if (flight_.plan() || asked_ >= (may_go ? 1 : 2)) return false;
+bool Detour::due(Time stuck_since, Time now, const std::optional<Eigen::Vector2d>& blocked_map_m) const {
+  /// Farther away it is something else, which may be out of sight.
+  constexpr double kSame_m = 3.0;
+  const bool same = !blocked_map_m || !blocked_map_m_ || (*blocked_map_m - *blocked_map_m_).norm() < kSame_m;
+  if (flight_.plan() || (same && asked_ >= (blocked_map_m ? 1 : 2))) return false;
   return (now - std::max(stuck_since, since_.value_or(stuck_since))).seconds() >= config_.detour_after_s;
 }
 
 void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m,
                  const std::optional<Eigen::Vector2d>& blocked_map_m) {
   since_ = input.now;
+  blocked_map_m_ = blocked_map_m;
   ++asked_;
   flight_.ask(input, DetourRequest{goal_map_m, blocked_map_m});
 }

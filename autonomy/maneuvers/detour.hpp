@@ -27,9 +27,10 @@ class Detour {
 
   bool active() const { return active_; }
   /// Whether a detour is due: there has been no path and no flight since then, and the last detour ended (or was
-  /// requested) long enough ago. To wait for what may go, one is enough; what will not go is looked at from two places.
-  bool due(common::Time stuck_since, common::Time now, bool may_go) const;
-  /// `blocked_map_m` is where something that may go stands; nullopt if nothing does.
+  /// requested) long enough ago. To wait for what may go, one is enough, and one for each that comes into the way
+  /// elsewhere; what will not go is looked at from two places. `blocked_map_m` is where something that may go stands;
+  /// nullopt if nothing does.
+  bool due(common::Time stuck_since, common::Time now, const std::optional<Eigen::Vector2d>& blocked_map_m) const;
   void ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m,
            const std::optional<Eigen::Vector2d>& blocked_map_m);
   /// `reason` says why there is no path. Returns the progress meanwhile: "detour: moves closer to look".
@@ -44,8 +45,9 @@ class Detour {
   FlightMemory& memory_;
   PathFlight& flight_;
   bool active_ = false;
-  int asked_ = 0;                      ///< Since the last path of the maneuver's own.
-  std::optional<common::Time> since_;  ///< When the last detour was requested, or ended.
+  int asked_ = 0;                                 ///< Since the last path of the maneuver's own.
+  std::optional<common::Time> since_;             ///< When the last detour was requested, or ended.
+  std::optional<Eigen::Vector2d> blocked_map_m_;  ///< That it was requested for.
 };
 
 }  // namespace swiftlet::autonomy

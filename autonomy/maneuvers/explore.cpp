@@ -103,7 +103,7 @@ Progress Explore::fly(const ManeuverInput& input) {
       (patience_.waits() ? patience_.due(input.now, setup_.desk.opened())
                          : (input.now - *asked_).seconds() >= reconsiderAfter_s() || (replan && !flight_.plan()));
   if (!flight_.mayAsk()) return Progress::running();
-  if (looks_at && patience_.waits() && !gives_up && detour_.due(patience_.since(), input.now, true)) {
+  if (looks_at && patience_.waits() && !gives_up && detour_.due(patience_.since(), input.now, looks_at)) {
     detour_.ask(input, *looks_at, looks_at);
   } else if (due) {
     asked_ = input.now;

@@ -135,8 +135,9 @@ Progress GoTo::fly(const ManeuverInput& input) {
   lookAlongBlockedPath();
   if (!flight_.mayAsk()) return Progress::running();
   const auto& blockage = patience_.blockage();
-  if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now, blockage.has_value())) {
-    detour_.ask(input, intent_.goal_map_m, blockage ? std::optional(blockage->place_map_m) : std::nullopt);
+  const auto blocked_map_m = blockage ? std::optional(blockage->place_map_m) : std::nullopt;
+  if (no_path_ && mayPass(no_path_->failure) && detour_.due(no_path_->since, input.now, blocked_map_m)) {
+    detour_.ask(input, intent_.goal_map_m, blocked_map_m);
   } else if (no_path_ ? isDue(input.now) : replan) {
     flight_.ask(input, GoalRequest{intent_.goal_map_m, intent_.tolerance_m, shifted_ ? intent_.shift_m : 0.0});
     asked_shifted_ = shifted_;

@@ -1,7 +1,11 @@
 // Land: done when the vehicle stands on the ground. In the air it cannot fail.
 //
 //   stop --> look beyond --> choose a place --> fly there --> descend
-//    |                        |  none, or no position      ^ or where it is, if it does not get there
+//    |                        |     ^               |      ^ or where it is, if it does not get there
+//    |                        |     +---------------+      | in time
+//    |                        |      an edge was seen      |
+//    |                        |      on the way            |
+//    |                        |  none, or no position      |
 //    |                        +----------------------------+
 //    +--> over a landing pattern that is seen: fly over its middle and down on it --^
 //
@@ -56,7 +60,7 @@ class Land final : public Maneuver {
 
   Progress onGround(const ManeuverInput& input) const;
   void begin(const ManeuverInput& input);
-  void choose(const ManeuverInput& input);
+  void choose(const ManeuverInput& input, const Eigen::Vector2d& from_map_m);
   void approach(const ManeuverInput& input);
   Progress flyOverPattern(const ManeuverInput& input);
   void descend(common::Time now, const std::string& reason);
@@ -121,7 +125,7 @@ void Land::begin(const ManeuverInput& input) {
   if (place_map_m_)
     phase_ = Phase::kLooksBeyond;
   else
-    choose(input);
+    choose(input, here_map_m_);
 }
 
 /// Without a position, or kept off by a retreat or the wind, it lands where it is.
@@ -136,16 +140,16 @@ Progress Land::flyOverPattern(const ManeuverInput& input) {
   return commanded_ ? Progress::running("descending") : Progress::failed(commanded_.error());
 }
 
-void Land::choose(const ManeuverInput& input) {
+void Land::choose(const ManeuverInput& input, const Eigen::Vector2d& from_map_m) {
   const auto cost_map = setup_.desk.costMap();
   if (!cost_map || !input.surfaces) return descend(input.now, {});
   const planning::LandingNeeds needs = needsOf(*cost_map);
   no_path_.clear();
-  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, here_map_m_, needs);
+  place_map_m_ = planning::landingPlace(*cost_map, *input.surfaces, from_map_m, needs);
   if (!place_map_m_)
     return descend(input.now, fmt::format("no level place for the hull is known within {:.0f} m", needs.reach_m));
   phase_ = Phase::kFliesThere;
-  const double distance_m = (*place_map_m_ - here_map_m_).norm();
+  const double distance_m = (*place_map_m_ - from_map_m).norm();
   if (distance_m > kTolerance_m)
     setup_.memory.log.info(input.now, kFlightSource, "landing at " + input.names.of(*place_map_m_),
                            fmt::format("the surface here is not level, {:.1f} m aside it is", distance_m));
@@ -155,8 +159,14 @@ void Land::choose(const ManeuverInput& input) {
 void Land::approach(const ManeuverInput& input) {
   const bool there = (*place_map_m_ - input.position_map_m()).norm() < kTolerance_m && setup_.controller.stopped();
   const bool late = (input.now - *since_).seconds() > kApproach_s;
-  if (phase_ == Phase::kLooksBeyond && (there || late || !no_path_.empty())) return choose(input);
-  if (there) return descend(input.now, {});
+  if (phase_ == Phase::kLooksBeyond && (there || late || !no_path_.empty())) return choose(input, here_map_m_);
+  if (there) {  // The edge of a table that was first seen on the way may be nearer than the place allows.
+    const Eigen::Vector2d reached_map_m = *place_map_m_;
+    const bool took_off_here = reached_map_m == setup_.memory.stood_map_m;
+    if (!took_off_here && !late) choose(input, reached_map_m);
+    if (phase_ == Phase::kFliesThere && *place_map_m_ == reached_map_m) descend(input.now, {});
+    return;
+  }
   // While a person passes there is no path; a moment later there is one.
   if (late || !input.state.horizontal_valid)
     return descend(input.now, "the level place was not reached" + (no_path_.empty() ? "" : ": " + no_path_));

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "common/segment.hpp"
 
 namespace swiftlet::autonomy {
@@ -125,19 +123,12 @@ class StandingAlone {
     return thing;
   }
 
-  /// What is longer than wide is seen across its length, anything else across some direction.
+  /// In some direction: the outline of somebody in a door may be as long and narrow as a piece of a wall.
   bool hasFreeEnds(const Thing& thing) const {
-    constexpr double kElongated = 4.0;  // Of the squares: twice as long as wide.
     constexpr int kDirections = 8;
     Eigen::Vector2d middle_map_m = Eigen::Vector2d::Zero();
     for (const Eigen::Vector2d& cell_map_m : thing.cells_map_m) middle_map_m += cell_map_m;
     middle_map_m /= static_cast<double>(thing.cells_map_m.size());
-    Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    for (const Eigen::Vector2d& cell_map_m : thing.cells_map_m)
-      spread += (cell_map_m - middle_map_m) * (cell_map_m - middle_map_m).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
-    if (axes.eigenvalues()[1] > kElongated * axes.eigenvalues()[0])
-      return areEndsFree(thing, middle_map_m, axes.eigenvectors().col(1));
     for (int i = 0; i < kDirections; ++i) {
       const double angle_rad = i * std::numbers::pi / kDirections;
       if (areEndsFree(thing, middle_map_m, {std::cos(angle_rad), std::sin(angle_rad)})) return true;

@@ -72,6 +72,13 @@ bool sees(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, const
   return true;
 }
 
+/// Whether beams from the first place that pass the second one go on, and so show that nothing is there any more.
+bool goesOn(const planning::CostMap& map, const Eigen::Vector2d& from_map_m, const Eigen::Vector2d& past_map_m) {
+  constexpr double kBehind_m = 0.5, kOn_m = 1.0;
+  const Eigen::Vector2d along = (past_map_m - from_map_m).normalized();
+  return map.clearance().isOpen(past_map_m + kBehind_m * along, past_map_m + kOn_m * along);
+}
+
 }  // namespace
 
 PlanningAnswer PlanningWorker::answer(const PlanningRequest& request) {
@@ -411,11 +418,11 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 /// at most kReach_m, plus kPerMetreOfWidth times its distance to the nearest obstacle (docs/decisions/planning.md#005).
 /// Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of
 /// path. If what is in the way should be seen from there, so that the vehicle can stay until it has gone, a place is
-/// the better the farther it is from it, up to kLooksFrom_m, where the height of a beam is known to a slice of the map;
-/// if no place sees it, it counts as if it need not be seen.
+/// the better the nearer its distance to it is to kLooksFrom_m, where the height of a beam is known to a slice of the
+/// map, and if beams through it go on; if no place sees it, it counts as if it need not be seen.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m,
                                                           const std::optional<Eigen::Vector2d>& seen_map_m) const {
-  constexpr double kReach_m = 6.0, kLooksFrom_m = 3.0, kPerMetreOfWidth = 3.0;
+  constexpr double kReach_m = 6.0, kLooksFrom_m = 3.0, kGoesOn_m = 6.0, kPerMetreOfWidth = 3.0;
   constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
   if (!escape) return std::nullopt;
@@ -428,10 +435,15 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     const common::CellIndex cell = map_.cellOf(i);
     // The cost of a path into a corner is high, and would count as far away.
     if (!hasRoomToStop(map_, cell)) continue;
-    if (seen_map_m && !sees(map_, map_.centerOf(cell), *seen_map_m)) continue;
-    const double away_m = seen_map_m ? std::min((map_.centerOf(cell) - *seen_map_m).norm(), kLooksFrom_m)
-                                     : std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
-    const double score = away_m + kPerMetreOfWidth * map_.clearance().at_m(cell, planning::Against::kObstacles);
+    double score = kPerMetreOfWidth * map_.clearance().at_m(cell, planning::Against::kObstacles);
+    if (seen_map_m) {
+      const Eigen::Vector2d place_map_m = map_.centerOf(cell);
+      if (!sees(map_, place_map_m, *seen_map_m)) continue;
+      score += kLooksFrom_m - std::abs((place_map_m - *seen_map_m).norm() - kLooksFrom_m);
+      if (goesOn(map_, place_map_m, *seen_map_m)) score += kGoesOn_m;
+    } else {
+      score += std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
+    }
     if (score > best.first) best = {score, i};
     if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }

@@ -21,6 +21,10 @@ constexpr double kSpread_m = 0.05, kSpreadShare = 3.0;
 constexpr double kUpright = 0.3;
 /// Flatter than 27 deg from the level it is a floor, a ramp or a ceiling, of which a section is no wall.
 constexpr double kFlat = 2.0;
+/// A wall goes on: this many cells around lean within so much of it, and turned by at most 25 deg. At the post of a
+/// door, with a person in it, a cell alone seems to lean.
+constexpr int kAlike = 2;
+constexpr float kLeansAlike = 0.3F, kTurnedAlike = 0.9F;
 /// An end farther off the plane is on something else.
 constexpr double kOn_m = 0.1;
 /// A plane is followed this far from where it was seen.
@@ -32,7 +36,6 @@ constexpr double kThere_m = 0.02;
 
 void LeaningWalls::fit(Cell& cell) {
   cell.added = 0.0F;
-  const bool leaned = cell.lean != 0.0F;
   const Eigen::Vector3d mean_m = (cell.sum_m / cell.count).cast<double>();
   const Eigen::Matrix3d covariance_m2 = (cell.squares_m2 / cell.count).cast<double>() - mean_m * mean_m.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -50,11 +53,28 @@ void LeaningWalls::fit(Cell& cell) {
     cell.normal = wall ? Eigen::Vector2f((normal.head<2>() / level).cast<float>()) : Eigen::Vector2f::Zero();
     cell.lean = std::abs(lean) >= kUpright ? static_cast<float>(lean) : 0.0F;
   }
-  leaning_cells_ += (cell.lean != 0.0F ? 1 : 0) - (leaned ? 1 : 0);
   if (cell.count < kMany) return;
   cell.count *= 0.5F;
   cell.sum_m *= 0.5F;
   cell.squares_m2 *= 0.5F;
+}
+
+void LeaningWalls::judge(common::CellIndex index) {
+  const Cell cell = cells_.at(index);
+  int alike = 0;
+  for (int y = index.y - 1; y <= index.y + 1; ++y)
+    for (int x = index.x - 1; x <= index.x + 1; ++x) {
+      const Cell other = cells_.at({x, y});
+      const bool itself = x == index.x && y == index.y;
+      if (!itself && other.lean != 0.0F &&
+          cell.normal.dot(other.normal) * std::copysign(1.0F, cell.lean * other.lean) > kTurnedAlike &&
+          std::abs(std::abs(cell.lean) - std::abs(other.lean)) <= kLeansAlike * std::abs(cell.lean))
+        ++alike;
+    }
+  const bool wall = cell.lean != 0.0F && alike >= kAlike;
+  if (wall == cell.wall) return;
+  cells_.mutableAt(index).wall = wall;
+  leaning_cells_ += wall ? 1 : -1;
 }
 
 void LeaningWalls::add(const ProjectedScan& scan, const common::Pose3& T_odom_body) {
@@ -72,7 +92,12 @@ void LeaningWalls::add(const ProjectedScan& scan, const common::Pose3& T_odom_bo
     cell.sum_m += offset_m;
     cell.squares_m2 += offset_m * offset_m.transpose();
     cell.added += 1.0F;
-    if (cell.added >= kRefit) fit(cell);
+    if (cell.added < kRefit) continue;
+    const float leaned = cell.lean;
+    fit(cell);
+    if (cell.lean == leaned) continue;
+    for (int y = index.y - 1; y <= index.y + 1; ++y)
+      for (int x = index.x - 1; x <= index.x + 1; ++x) judge({x, y});
   }
 }
 
@@ -91,7 +116,7 @@ std::optional<Eigen::Vector2d> LeaningWalls::leanAt(const Vector3d& point_odom_m
           std::abs(normal.dot(off_m) - static_cast<double>(cell.lean) * (point_odom_m.z() - mean_m.z()));
       if (beside_m >= nearest_m) continue;
       nearest_m = beside_m;
-      lean = static_cast<double>(cell.lean) * normal;
+      lean = (cell.wall ? static_cast<double>(cell.lean) : 0.0) * normal;
     }
   }
   return lean;

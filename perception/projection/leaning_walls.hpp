@@ -3,7 +3,7 @@
 // a plane is fitted to the ends of beams (the normal distributions transform, Biber and Strasser 2003, in space:
 // Magnusson 2009); where it leans, ends are moved along it to one height.
 //
-//   ends of beams, at the poses of the filter --> mean and covariance in each cell --> plane --> leans, or not
+//   ends of beams, at the poses of the filter --> mean and covariance in each cell --> plane --> leans as those around
 //                                                                                         |
 //   next scan -----------------------------------------------------------------------> ends at one height
 //
@@ -55,16 +55,19 @@ class LeaningWalls {
     Eigen::Vector2f normal = Eigen::Vector2f::Zero();
     float lean = 0.0F;   ///< How far the wall moves along its normal for each metre of height; 0 if it stands upright.
     float added = 0.0F;  ///< Since the plane was fitted.
+    bool wall = false;   ///< It leans, and so do others around, alike.
   };
   /// The sum of what was moved, squared, is added to `squares_m2`.
   ProjectedScan moved(const ProjectedScan& scan, double height_odom_m, bool only_known, double& squares_m2) const;
   void fit(Cell& cell);
+  /// Decides anew whether the cell is part of a leaning wall.
+  void judge(common::CellIndex index);
   /// How far the wall that the point lies on moves along x and y for each metre of height, by the nearest plane of its
   /// cell and those around; nullopt where none is known.
   std::optional<Eigen::Vector2d> leanAt(const Eigen::Vector3d& point_odom_m) const;
 
   common::TiledGrid<Cell> cells_;
-  int leaning_cells_ = 0;
+  int leaning_cells_ = 0;  ///< That are part of a leaning wall.
 };
 
 }  // namespace swiftlet::perception

@@ -11,15 +11,21 @@ constexpr int kGone_ms = 2000;
 
 }  // namespace
 
-void Columns::ended(common::CellIndex cell, const Extent& confirmed) {
+void Columns::ended(common::CellIndex cell, const Extent& met) {
   const Cell old = cells_.at(cell);
   Cell now = old;
   now.passed_ms = 0;
-  if (confirmed.top >= confirmed.bottom) {
+  const auto bottom = static_cast<std::int16_t>(met.bottom), top = static_cast<std::int16_t>(met.top),
+             surely = static_cast<std::int16_t>(met.surely);
+  now.lowest = std::min(old.lowest, bottom);
+  now.highest = std::max(old.highest, top);
+  now.surest = std::max(old.surest, surely);
+  if (old.lowest <= old.highest) {
+    const std::int16_t second_lowest = std::max(old.lowest, bottom), second_highest = std::min(old.highest, top);
     const bool empty = old.top < old.bottom;
-    now.bottom = static_cast<std::int16_t>(empty ? confirmed.bottom : std::min<int>(old.bottom, confirmed.bottom));
-    now.top = static_cast<std::int16_t>(empty ? confirmed.top : std::max<int>(old.top, confirmed.top));
-    now.surely = static_cast<std::int16_t>(std::max<int>(old.surely, confirmed.surely));
+    now.bottom = empty ? std::min(second_lowest, second_highest) : std::min(old.bottom, second_lowest);
+    now.top = empty ? second_highest : std::max(old.top, second_highest);
+    now.surely = std::max(old.surely, std::min(old.surest, surely));
   }
   // An unchanged cell is not written, so that its tile stays shared with the snapshots.
   if (now != old) cells_.set(cell, now);
@@ -52,6 +58,13 @@ std::optional<Columns::Extent> Columns::passed(common::CellIndex cell, const Pas
   const bool gone = now.passed_ms >= kGone_ms;
   cells_.set(cell, gone ? Cell{} : now);
   return gone ? std::optional(Extent{old.bottom, old.top, old.surely}) : std::nullopt;
+}
+
+std::optional<Columns::Extent> Columns::takeBelow(common::CellIndex cell, int top) {
+  const Cell old = cells_.at(cell);
+  if (old.top < old.bottom || old.top >= top) return std::nullopt;
+  cells_.set(cell, {});
+  return Extent{old.bottom, old.top, old.surely};
 }
 
 }  // namespace swiftlet::perception

@@ -35,13 +35,16 @@ class Columns {
 
   explicit Columns(double resolution_m) : cells_(resolution_m) {}
 
-  /// A beam ended in the cell. Heights are its own if it is confirmed, and none otherwise.
-  void ended(common::CellIndex cell, const Extent& confirmed);
+  /// Beams ended in the cell at heights from `met.bottom` to `met.top`. Something reaches as far up or down as two ends
+  /// do: one alone may be noise of a height or a range.
+  void ended(common::CellIndex cell, const Extent& met);
   /// Greatest Extent::surely and Extent::top of the cell and those around it; INT16_MIN where nothing stands.
   int surelyAround(common::CellIndex cell) const;
   int topAround(common::CellIndex cell) const;
   /// Returns where something was, if that has gone now: it has been passed for long enough since a beam last ended.
   std::optional<Extent> passed(common::CellIndex cell, const Pass& pass);
+  /// Forgets what stands in the cell and returns where that was, if it is lower than `top`.
+  std::optional<Extent> takeBelow(common::CellIndex cell, int top);
   /// Nothing stands in the cell any more.
   void forget(common::CellIndex cell) {
     if (cells_.at(cell) != Cell{}) cells_.set(cell, {});
@@ -55,6 +58,7 @@ class Columns {
  private:
   struct Cell {
     std::int16_t bottom = 0, top = -1, surely = INT16_MIN;
+    std::int16_t lowest = INT16_MAX, highest = INT16_MIN, surest = INT16_MIN;  ///< Of all ends.
     std::uint16_t passed_ms = 0;
     std::uint16_t scan = 0;  ///< That was counted last.
     bool operator==(const Cell&) const = default;

@@ -29,8 +29,9 @@ constexpr int kSlowFadeScans = 4;
 constexpr double kLasts_s = 0.3;
 /// The height of a beam is known to this share of its range: 1 deg of the attitude.
 constexpr double kHeightShare = 0.02;
-/// Beams this many slices below the top of a low obstacle go through; nearer ones may pass above.
-constexpr int kThrough = 2;
+/// Beams this many slices below the top of a low obstacle go through; nearer ones may pass above. They hit what is
+/// there now and then as the vehicle sways, and so count, but less by this factor.
+constexpr int kThrough = 2, kMayPassAbove = 4;
 /// A beam that crosses less of a cell than this, in cells, may pass beside something thin that stands in it.
 constexpr double kInside_cells = 0.5;
 /// A beam that ends nearer behind a cell may have been meant to end there: noise in range, and walls at 10 deg to it.
@@ -263,9 +264,9 @@ void SlicedMap::apply(int slice, common::OccupancyGrid& grid, CellIndex cell, Me
   const auto value = static_cast<Cell>(std::clamp(sum, -config_.max_steps, config_.max_steps));
   // A single end may be noise of a height or a range.
   const bool confirmed = ended && value > config_.hit_steps;
-  const bool outline = confirmed && isOutline(cell);
+  const bool outline = ended && isOutline(cell);
   const bool low_changed = ended ? confirmed && meetLow(slice, cell, outline, stamp) : low_.passed(cell, slice, stamp);
-  if (ended) columns_.ended(cell, confirmed ? metExtent(slice, cell, outline) : Columns::Extent{});
+  if (ended) columns_.ended(cell, metExtent(slice, cell, outline));
   // An unchanged cell is not written, so that its tile stays shared with the snapshots.
   if (value != old) grid.set(cell, value);
   if (low_changed)
@@ -330,15 +331,24 @@ void SlicedMap::forgetLow(CellIndex cell, int surely) {
 /// Returns true if it did.
 bool SlicedMap::hasGone(int slice, CellIndex cell) {
   const int unsure = unsureSlices(cell);
-  const Columns::Pass pass{static_cast<std::uint16_t>(drawn_), slice - unsure, slice + unsure, scan_.lasts};
-  if (const auto top = low_.top(cell); top && pass.highest > *top - kThrough) return false;
+  Columns::Pass pass{static_cast<std::uint16_t>(drawn_), slice - unsure, slice + unsure, scan_.lasts};
+  if (const auto top = low_.top(cell); top && pass.highest > *top - kThrough) {
+    if (slice > *top) return false;
+    pass.lasts = pass.lasts / kMayPassAbove;
+  }
   const auto gone = columns_.passed(cell, pass);
   if (!gone) return false;
   gone_.push_back({combined_.centerOf(cell), slice * kSliceHeight_m});
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) forgetLow({cell.x + dx, cell.y + dy}, gone->surely);
   free(cell, *gone);
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) goesAlong({cell.x + dx, cell.y + dy}, gone->surely);
   return true;
+}
+
+/// What is beside something that reached up to `surely` and has gone, and is lower, was its outline.
+void SlicedMap::goesAlong(CellIndex cell, int surely) {
+  forgetLow(cell, surely);
+  if (const auto outline = columns_.takeBelow(cell, surely)) free(cell, *outline);
 }
 
 /// Nothing is left of what stood there, at any height that the hull may touch.

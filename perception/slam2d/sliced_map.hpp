@@ -95,6 +95,7 @@ class SlicedMap {
   void pass(int slice, common::CellIndex cell, Met met);
   void fadeAround(int slice, common::CellIndex cell);
   bool hasGone(int slice, common::CellIndex cell);
+  void goesAlong(common::CellIndex cell, int surely);
   void free(common::CellIndex cell, const Columns::Extent& stood);
   void forgetLow(common::CellIndex cell, int surely);
   int unsureSlices(common::CellIndex cell) const;

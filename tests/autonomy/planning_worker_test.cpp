@@ -148,6 +148,20 @@ TEST_F(Worker, MakesRoomWhereThePositionIsKnown) {
   EXPECT_GT(answer.detour->path.points_map_m.back().x(), 0.0);
 }
 
+/// From the far end of a corridor, which is wider, the height of a beam at the blockage is not known.
+TEST_F(Worker, LooksFromAFewMetresAndNotFromTheWidestPlace) {
+  grid = std::make_shared<common::OccupancyGrid>(common::makeOccupancyGrid(0.05));
+  for (int y = -60; y <= 60; ++y)
+    for (int x = -100; x <= 320; ++x) {
+      const bool open = std::abs(y) < (x < 260 ? 16 : 60) && x > -100 && x < 320;
+      grid->set({x, y}, (open ? -1 : 1) * common::occupancy::kMaxSteps);
+    }
+  pose = {1.5, 0.0, 0.0};
+  const auto answer = ask(DetourRequest{{-4.0, 0.0}, Eigen::Vector2d(0.0, 0.0)}, {{{0.0, 0.0}, 0.6}});
+  ASSERT_TRUE(answer.detour);
+  EXPECT_NEAR(answer.detour->path.points_map_m.back().x(), 3.0, 0.3);
+}
+
 TEST_F(Worker, FliesToSeeWhetherTheDoorIsStillBlocked) {
   build(0);
   for (int y = 30; y <= 50; ++y) grid->set({80, y}, -common::occupancy::kMaxSteps);
@@ -264,6 +278,29 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   }
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage) << "nobody has gone";
+  EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at ")) << answer.blockage->who;
+}
+
+/// Seen from one side only, in a door whose far side nobody has seen, the outline is as narrow as a piece of a wall.
+TEST_F(Worker, TheNearSideOfSomebodyInTheDoorIsWaitedFor) {
+  for (int y = 0; y < 80; ++y)
+    for (int x = 81; x < 160; ++x) grid->set({x, y}, common::occupancy::kUnknown);
+  build(20);
+  const Eigen::Vector2d person(4.0, 2.1), from(2.0, 1.0);
+  for (int y = 30; y < 50; ++y) grid->set({80, y}, common::occupancy::kUnknown);
+  for (double x_m = -0.3; x_m <= 0.3; x_m += 0.02)
+    for (double y_m = -0.3; y_m <= 0.3; y_m += 0.02) {
+      const Eigen::Vector2d off_m(x_m, y_m);
+      if (off_m.norm() > 0.25 || off_m.norm() < 0.2 || off_m.dot(from - person) < 0.0) continue;
+      grid->set(grid->cellAt(person + off_m), common::occupancy::kMaxSteps);
+    }
+  auto answer = ask(ExploreRequest{});
+  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
+    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
+  }
+  ASSERT_TRUE(answer.exploration->done);
+  ASSERT_TRUE(answer.blockage);
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at ")) << answer.blockage->who;
 }
 

@@ -113,5 +113,24 @@ TEST(LeaningWalls, SomebodyBeforeALeaningWallStaysWhereTheyAre) {
   EXPECT_EQ(section.points_level_m[0], scan.points_level_m[0]);
 }
 
+/// The post of a door with a person in it: in one cell, what is met higher is farther away.
+TEST(LeaningWalls, WhatLeansInOnePlaceOnlyIsNoWall) {
+  for (const double length_m : {0.28, 1.2}) {
+    LeaningWalls walls;
+    common::RandomStream random(10, "leaning walls");
+    for (int i = 0; i < 200; ++i) {
+      ProjectedScan scan;
+      scan.T_odom_body.position_m.z() = 0.8 + 0.002 * i;
+      for (double along_m = 0.01; along_m < length_m; along_m += 0.02) {
+        const double beside_m = 1.05 + 0.5 * (scan.T_odom_body.position_m.z() - 1.0) + kNoise_m * random.gaussian();
+        scan.points_level_m.push_back(Eigen::Vector2d(along_m, beside_m).cast<float>());
+        scan.heights_level_m.push_back(0.0F);
+      }
+      walls.add(scan, scan.T_odom_body);
+    }
+    EXPECT_EQ(walls.any(), length_m > 1.0) << length_m;
+  }
+}
+
 }  // namespace
 }  // namespace swiftlet::perception

@@ -322,6 +322,77 @@ TEST_F(PersonWhoLeaves, IsGoneWhereOnlyTiltedBeamsMetHim) {
   EXPECT_FALSE(stands());
 }
 
+/// Ends of which no two are at one height, some below the level beams and some above: a person, and no table.
+TEST_F(PersonWhoLeaves, IsNoLowObstacleWhereBeamsEndedAboveThoseOfTheLaser) {
+  for (int sway = 0; sway < 3; ++sway) {
+    watching_.draw(over(0.0, 1.0), 1.0);
+    for (const double below_m : {-0.15, 0.15, 0.15, -0.1, 0.1, -0.05}) {
+      DrawnScan leaning = upright(below_m);
+      for (Eigen::Vector3f& p : leaning.hits_level_m)
+        if (p.head<2>().norm() < 2.0F) p.head<2>() *= 1.35F / 1.5F;
+      watching_.draw(leaning, 0.25);
+    }
+  }
+  ASSERT_TRUE(common::occupancy::isOccupied(at(1.35, 0.0)));
+  watching_.draw(over(0.0, 1.0), 2.5);
+  EXPECT_FALSE(common::occupancy::isOccupied(at(1.35, 0.0)));
+}
+
+/// What was met below somebody's middle, a cell beside, before the level beams met him.
+TEST(GridDrawing, TheOutlineOfSomebodyGoesWithThem) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto at = [&](double x_m) { return map.atFlightHeight().at(map.atFlightHeight().cellAt(x_m, 0.0)); };
+  const auto standing = [](double at_m, double below_m) {
+    DrawnScan scan = around(3.0, 720);
+    scan.body_height_m = 1.0;
+    for (Eigen::Vector3f& p : scan.hits_level_m)
+      if (p.x() > 0.0F && std::abs(p.y()) < 0.4F)
+        p = {static_cast<float>(at_m), p.y() * static_cast<float>(at_m / 3.0), static_cast<float>(-below_m)};
+    return scan;
+  };
+  Watching watching(map);
+  watching.draw(standing(1.43, 0.15), 0.75);
+  watching.draw(standing(0.93, 0.15), 0.75);  // Of something else.
+  for (const double below_m : {0.0, 0.1, -0.1, 0.0}) watching.draw(standing(1.48, below_m), 1.0);
+  ASSERT_TRUE(common::occupancy::isOccupied(at(1.48)));
+  ASSERT_TRUE(common::occupancy::isOccupied(at(1.43)));
+  watching.draw(over(0.0, 1.0), 2.5);
+  EXPECT_FALSE(common::occupancy::isOccupied(at(1.48)));
+  EXPECT_FALSE(common::occupancy::isOccupied(at(1.43)));
+  EXPECT_TRUE(common::occupancy::isOccupied(at(0.93))) << "beams 15 cm above it tell nothing of it";
+}
+
+/// 4 m away the height of a beam is known to two slices. What seemed to be low, and reaches two slices higher, is met
+/// now and then by beams at its top if it is there.
+TEST(GridDrawing, ALowObstacleThatBeamsPassAtItsTopIsGoneAfterAWhile) {
+  SlicedMap map{GridDrawingConfig{}};
+  const auto where = [&] { return map.atFlightHeight().at(map.atFlightHeight().cellAt(4.0, 0.0)); };
+  const auto scanOf = [](bool met, double below_m) {
+    DrawnScan scan = around(5.0, 1440);
+    scan.body_height_m = 1.0;
+    for (Eigen::Vector3f& p : scan.hits_level_m) {
+      p.z() = static_cast<float>(-below_m * 5.0 / 4.0);
+      if (met && p.x() > 0.0F && std::abs(p.y()) < 0.4F) p *= 0.8F;
+    }
+    return scan;
+  };
+  Watching watching(map);
+  for (int tilt = 0; tilt < 3; ++tilt) {
+    watching.draw(scanOf(false, 0.0), 5.0);
+    watching.draw(scanOf(true, 0.15), 0.75);
+  }
+  watching.draw(scanOf(true, 0.25), 0.5);
+  watching.draw(scanOf(true, 0.05), 0.5);
+  ASSERT_TRUE(common::occupancy::isOccupied(where()));
+  watching.draw(scanOf(false, 0.15), 6.0);
+  EXPECT_TRUE(common::occupancy::isOccupied(where()));
+  watching.draw(scanOf(true, 0.15), 0.25);
+  watching.draw(scanOf(false, 0.15), 6.0);
+  EXPECT_TRUE(common::occupancy::isOccupied(where())) << "it was met in between";
+  watching.draw(scanOf(false, 0.15), 4.0);
+  EXPECT_FALSE(common::occupancy::isOccupied(where()));
+}
+
 /// A single end, at any height that the hull may touch, is no more than a trace.
 TEST(GridDrawing, ATraceAtTheLowestHeightOfTheHullFades) {
   const GridDrawingConfig config;

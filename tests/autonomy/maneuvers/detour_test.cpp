@@ -20,10 +20,10 @@ class DetourTest : public ManeuverWorkbench {
 };
 
 TEST_F(DetourTest, IsDueAfterSomeTimeWithoutAPathOrAFlownPlan) {
-  EXPECT_FALSE(detour_.due(now_, in(2.4), false));
-  EXPECT_TRUE(detour_.due(now_, in(2.6), false));
+  EXPECT_FALSE(detour_.due(now_, in(2.4), std::nullopt));
+  EXPECT_TRUE(detour_.due(now_, in(2.6), std::nullopt));
   flight_.offer(straight(position_m(), {3.0, 2.0}), now_, state_);
-  EXPECT_FALSE(detour_.due(now_, in(2.6), false));
+  EXPECT_FALSE(detour_.due(now_, in(2.6), std::nullopt));
 }
 
 TEST_F(DetourTest, IsRequestedFromTheDeskAndNotRepeatedAtOnce) {
@@ -34,8 +34,8 @@ TEST_F(DetourTest, IsRequestedFromTheDeskAndNotRepeatedAtOnce) {
   ASSERT_EQ(answers_.size(), 1U);
   EXPECT_TRUE(answers_[0].detour);
   EXPECT_FALSE(detour_.active()) << "the maneuver begins it with the answer";
-  EXPECT_FALSE(detour_.due(now_, in(2.4), false)) << "even where there was nowhere to go";
-  EXPECT_TRUE(detour_.due(now_, in(2.6), false));
+  EXPECT_FALSE(detour_.due(now_, in(2.4), std::nullopt)) << "even where there was nowhere to go";
+  EXPECT_TRUE(detour_.due(now_, in(2.6), std::nullopt));
 }
 
 TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
@@ -52,7 +52,7 @@ TEST_F(DetourTest, IsFlownAndEndsAtItsTarget) {
       10.0);
   EXPECT_LT(distanceTo_m({3.0, 2.0}), 0.16);
   EXPECT_FALSE(flight_.plan());
-  EXPECT_FALSE(detour_.due(now_, in(2.4), false)) << "the next one counts from its end";
+  EXPECT_FALSE(detour_.due(now_, in(2.4), std::nullopt)) << "the next one counts from its end";
 }
 
 TEST_F(DetourTest, EndsWhenItLosesItsPath) {
@@ -66,14 +66,22 @@ TEST_F(DetourTest, EndsWhenItLosesItsPath) {
 }
 
 TEST_F(DetourTest, OneIsEnoughToWaitForWhatMayGo) {
-  EXPECT_TRUE(detour_.due(now_, in(10.0), true));
+  EXPECT_TRUE(detour_.due(now_, in(10.0), Eigen::Vector2d(4.0, 2.0)));
   begin();
   controller_.hold();
   detour_.endWhenOver(input());
-  EXPECT_FALSE(detour_.due(now_, in(10.0), true));
-  EXPECT_TRUE(detour_.due(now_, in(10.0), false)) << "what will not go is looked at from two places";
+  EXPECT_FALSE(detour_.due(now_, in(10.0), Eigen::Vector2d(4.0, 2.0)));
+  EXPECT_TRUE(detour_.due(now_, in(10.0), std::nullopt)) << "what will not go is looked at from two places";
   detour_.breakOff();
-  EXPECT_TRUE(detour_.due(now_, in(10.0), true)) << "there was a path since";
+  EXPECT_TRUE(detour_.due(now_, in(10.0), Eigen::Vector2d(4.0, 2.0))) << "there was a path since";
+}
+
+TEST_F(DetourTest, WhatStandsElsewhereIsLookedAtAsWell) {
+  const Eigen::Vector2d door(4.0, 2.0);
+  detour_.ask(input(), {9.0, 2.0}, door);
+  deliver();
+  EXPECT_FALSE(detour_.due(now_, in(10.0), Eigen::Vector2d(5.0, 2.5))) << "the same, which moves";
+  EXPECT_TRUE(detour_.due(now_, in(10.0), Eigen::Vector2d(8.0, 2.0))) << "in another door, out of sight";
 }
 
 TEST_F(DetourTest, SwitchesToAPathToTheGoalWithoutStopping) {
