@@ -79,6 +79,10 @@ struct FilterState {
   Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
   Eigen::Vector2d ahrs_yaw_off = Eigen::Vector2d::Zero();  ///< rad, rad/s: offset of the AHRS's yaw, and its drift.
 
+  /// When the tilt last agreed with the AHRS, and what upDirection() was off by then.
+  common::Time ahrs_agreed;
+  Eigen::Vector2d ahrs_off = Eigen::Vector2d::Zero();
+
   DragStretch drag_stretch;
   /// The mean of what drag measurements were off by lately, without outliers, along the body's x and y.
   Eigen::Vector2d drag_excess_m_s2 = Eigen::Vector2d::Zero();

@@ -47,6 +47,9 @@ constexpr double kDivergedVelocitySigma_m_s = 3.0;
 
 /// Beyond this Mahalanobis distance the AHRS is trusted more than the filter.
 constexpr double kAhrsGate = 3.0;
+/// A tilt that has left that of the AHRS over so many of its updates was turned by a gyroscope whose bias has jumped.
+/// In one it was a knock, over more the error of the AHRS may have changed.
+constexpr double kFewestUpdates = 1.5, kMostUpdates = 10.5;
 /// The vehicle's own acceleration, the difference between force and gravity, lasts for about this long: the time scale
 /// of the attitude loop and of the position loop of a small quadrotor.
 constexpr double kOwnAcceleration_s = 0.5;
@@ -99,6 +102,18 @@ void widenAccelerometer(FilterState& state, double jump_m_s2, double since_s) {
   diagonal.segment<2>(kAccelerometerBias).array() += square(jump_m_s2);
   diagonal.segment<2>(kVelocity).array() += square(jump_m_s2 * since_s);
   diagonal.segment<2>(kPosition).array() += square(0.5 * jump_m_s2 * square(since_s));
+}
+
+/// A gyroscope whose bias has jumped has turned the tilt to where it is off by `off`, by `slipped` of it in `since_s`
+/// (both as upDirection() measures them): one cause, so that the tilt and the bias are off together.
+void widenGyroscope(FilterState& state, const Eigen::Vector2d& off, const Eigen::Vector2d& slipped, double since_s) {
+  const Eigen::Vector3d rate_rad_s = Eigen::Vector3d(slipped.y(), -slipped.x(), 0.0) / since_s;
+  Eigen::Matrix<double, kCore, 1> cause = Eigen::Matrix<double, kCore, 1>::Zero();
+  cause.segment<3>(kAttitude) << off.y(), -off.x(), 0.0;
+  cause.segment<3>(kGyroscopeBias) = -(state.rotation_odom_body.conjugate() * rate_rad_s);
+  state.covariance.topLeftCorner<kCore, kCore>() += cause * cause.transpose();
+  // Of the yaw, which no tilt shows.
+  state.covariance(kGyroscopeBias + 2, kGyroscopeBias + 2) += rate_rad_s.squaredNorm();
 }
 
 void recover(FilterState& state) {
@@ -245,11 +260,20 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
   if (mahalanobis2(state, m) > square(kAhrsGate)) {
     // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong
     // attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
-    const double slipped2 = m.residual.squaredNorm();
+    const double slipped2 = m.residual.squaredNorm(), since_s = (state.stamp - state.ahrs_agreed).seconds();
     auto diagonal = state.covariance.diagonal();
-    diagonal.segment<2>(kAttitude).array() += slipped2;
-    diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
+    const double updates = since_s * config_.attitude_rate_hz;
+    if (updates > kFewestUpdates && updates < kMostUpdates) {
+      widenGyroscope(state, m.residual, m.residual - state.ahrs_off, since_s);
+    } else {
+      diagonal.segment<2>(kAttitude).array() += slipped2;
+      diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
+    }
   } else {
+    if (mahalanobis2(state, m) <= 2.0) {  // Their mean.
+      state.ahrs_agreed = state.stamp;
+      state.ahrs_off = m.residual;
+    }
     // N samples whose error has the correlation time tau contain as much information as samples of white noise of this
     // variance (integral of the autocorrelation).
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;

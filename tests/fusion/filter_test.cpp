@@ -383,6 +383,28 @@ TEST(ErrorStateFilter, TheAhrsCorrectsAWrongTilt) {
   EXPECT_LT((state.velocity_odom_m_s - flight.motion.truth(state.stamp.seconds()).velocity_m_s).norm(), 0.1);
 }
 
+/// The AHRS itself is off by 1 deg.
+TEST(ErrorStateFilter, AGyroscopeWhoseBiasJumpsIsFoundByTheAhrs) {
+  for (const double jump_deg_s : {-8.0, -5.0, 3.0, 5.0, 8.0}) {
+    SyntheticFlight flight(15, 14.0);
+    auto imu = flight.imuSamples();
+    const Eigen::Vector3d jump_rad_s = Eigen::Vector3d::Constant(jump_deg_s * common::kRadPerDeg);
+    for (auto& sample : imu)
+      if (sample.stamps.measured.seconds() > 8.0) sample.angular_velocity_body_rad_s += jump_rad_s;
+    ErrorStateFilter filter(withoutDrag());
+    double tilt_rad = 0.0, late_tilt_rad = 0.0;
+    feed(filter, imu, flight.deliveries(), flight.restUntil(), [&](double t) {
+      const auto slip = filter.state().T_odom_body.rotation * flight.motion.pose(t).rotation.conjugate();
+      const double off_rad = common::logSO3(slip).head<2>().norm();
+      tilt_rad = std::max(tilt_rad, off_rad);
+      if (t > 10.0) late_tilt_rad = std::max(late_tilt_rad, off_rad);
+    });
+    EXPECT_LT(tilt_rad, 5.0 * common::kRadPerDeg) << jump_deg_s;
+    EXPECT_LT(late_tilt_rad, 2.5 * common::kRadPerDeg) << jump_deg_s;
+    EXPECT_EQ(filter.counts().recoveries, 0u) << jump_deg_s;
+  }
+}
+
 /// An autopilot's samples are means over the period before them. Taken as values at their stamps, they would make the
 /// attitude late by half a period, which is 3 mrad here.
 TEST(ErrorStateFilter, TheAttitudeIsNotLateBySamplesThatAreMeans) {
