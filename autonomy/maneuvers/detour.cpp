@@ -10,8 +10,8 @@ Detour::Detour(const ManeuverSetup& setup, PathFlight& flight)
     : config_(setup.config), memory_(setup.memory), flight_(flight) {}
 
 bool Detour::due(Time stuck_since, Time now, const std::optional<Eigen::Vector2d>& blocked_map_m) const {
-  /// Farther away it is something else, which may be out of sight.
-  constexpr double kSame_m = 3.0;
+  /// Farther away it may be out of sight. Somebody who stands sways by less.
+  constexpr double kSame_m = 0.4;
   const bool same = !blocked_map_m || !blocked_map_m_ || (*blocked_map_m - *blocked_map_m_).norm() < kSame_m;
   if (flight_.plan() || (same && asked_ >= (blocked_map_m ? 1 : 2))) return false;
   return (now - std::max(stuck_since, since_.value_or(stuck_since))).seconds() >= config_.detour_after_s;
@@ -22,7 +22,7 @@ void Detour::ask(const ManeuverInput& input, const Eigen::Vector2d& goal_map_m,
   since_ = input.now;
   blocked_map_m_ = blocked_map_m;
   ++asked_;
-  flight_.ask(input, DetourRequest{goal_map_m, blocked_map_m});
+  flight_.ask(input, DetourRequest{goal_map_m, blocked_map_m, blocked_map_m && asked_ > 1});
 }
 
 Progress Detour::begin(const DetourPlan& plan, std::string reason, Time now, const common::VehicleState& state) {

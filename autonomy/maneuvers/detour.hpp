@@ -27,7 +27,7 @@ class Detour {
 
   bool active() const { return active_; }
   /// Whether a detour is due: there has been no path and no flight since then, and the last detour ended (or was
-  /// requested) long enough ago. To wait for what may go, one is enough, and one for each that comes into the way
+  /// requested) long enough ago. To wait for what may go, one is enough, and one for each that is in the way
   /// elsewhere; what will not go is looked at from two places. `blocked_map_m` is where something that may go stands;
   /// nullopt if nothing does.
   bool due(common::Time stuck_since, common::Time now, const std::optional<Eigen::Vector2d>& blocked_map_m) const;

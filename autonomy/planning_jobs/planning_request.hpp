@@ -57,6 +57,7 @@ struct ExploreRequest {
 struct DetourRequest {
   Eigen::Vector2d goal_map_m = Eigen::Vector2d::Zero();
   std::optional<Eigen::Vector2d> blocked_map_m = std::nullopt;  ///< Blockage::place_map_m, if there is one.
+  bool moved_aside = false;  ///< It waits aside already, and moves only to see the blockage much better.
 };
 
 /// std::monostate requests only an update of the cost map.

@@ -404,7 +404,7 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
     if (blocked) place = map_.centerOf(blocked->outlook);
   }
   if (!place || (*place - position_map_m).norm() < kWorth_m) {
-    place = roomyPlace(position_map_m, request.blocked_map_m);
+    place = roomyPlace(position_map_m, request.blocked_map_m, request.moved_aside);
     result.makes_room = true;
   }
   if (!place) return std::nullopt;
@@ -419,16 +419,20 @@ std::optional<DetourPlan> PlanningWorker::detour(const DetourRequest& request, c
 /// Beyond the length of a room a place is no better for being farther, and half a metre of width is worth 1.5 m of
 /// path. If what is in the way should be seen from there, so that the vehicle can stay until it has gone, a place is
 /// the better the nearer its distance to it is to kLooksFrom_m, where the height of a beam is known to a slice of the
-/// map, and if beams through it go on; if no place sees it, it counts as if it need not be seen.
+/// map, and if beams through it go on; if no place sees it, it counts as if it need not be seen. nullopt where the
+/// vehicle sees it about as well from here.
 std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d& position_map_m,
-                                                          const std::optional<Eigen::Vector2d>& seen_map_m) const {
-  constexpr double kReach_m = 6.0, kLooksFrom_m = 3.0, kGoesOn_m = 6.0, kPerMetreOfWidth = 3.0;
+                                                          const std::optional<Eigen::Vector2d>& seen_map_m,
+                                                          bool only_if_much_better) const {
+  constexpr double kReach_m = 6.0, kLooksFrom_m = 3.0, kGoesOn_m = 6.0, kPerMetreOfWidth = 3.0, kWorth_m = 1.5;
   constexpr int kEvery = 10;  // Where the best place is not held, cells this far apart are compared.
   const auto escape = planning::escapeFrom(map_, map_.cellAt(position_map_m));
   if (!escape) return std::nullopt;
   planning::CostField field;
   field.spread(map_, escape->back());
+  const int here = map_.indexOf(map_.cellAt(position_map_m));
   std::pair<double, int> best{0.0, map_.indexOf(escape->back())};
+  double score_here = -kReach_m;
   std::vector<std::pair<double, int>> others;  // Score and cell.
   for (int i = 0; i < static_cast<int>(map_.costs().size()); ++i) {
     if (!field.reached(i)) continue;
@@ -444,15 +448,17 @@ std::optional<Eigen::Vector2d> PlanningWorker::roomyPlace(const Eigen::Vector2d&
     } else {
       score += std::min(field.cost_m(i, map_.resolution_m()), kReach_m);
     }
+    if (i == here) score_here = score;
     if (score > best.first) best = {score, i};
     if (cell.x % kEvery == 0 && cell.y % kEvery == 0) others.emplace_back(score, i);
   }
+  if (only_if_much_better && best.first - score_here < kWorth_m) return std::nullopt;
   const auto placeOf = [&](int index) { return map_.centerOf(map_.cellOf(index)); };
   if (best.first > 0.0 && planning::isHeld(map_, placeOf(best.second))) return placeOf(best.second);
   std::stable_sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [score, index] : others)
     if (planning::isHeld(map_, placeOf(index))) return placeOf(index);
-  return seen_map_m ? roomyPlace(position_map_m, std::nullopt) : std::nullopt;
+  return seen_map_m ? roomyPlace(position_map_m, std::nullopt, only_if_much_better) : std::nullopt;
 }
 
 }  // namespace swiftlet::autonomy

@@ -101,7 +101,8 @@ class PlanningWorker {
   planning::CostField rememberEdge(const Eigen::Vector2d& position_map_m);
   std::optional<Eigen::Vector2d> gapBefore(const planning::CostField& reached) const;
   std::optional<Eigen::Vector2d> roomyPlace(const Eigen::Vector2d& position_map_m,
-                                            const std::optional<Eigen::Vector2d>& seen_map_m) const;
+                                            const std::optional<Eigen::Vector2d>& seen_map_m,
+                                            bool only_if_much_better) const;
   std::optional<double> pathHome_m(const Eigen::Vector2d& position_map_m);
 
   planning::CostMap map_;

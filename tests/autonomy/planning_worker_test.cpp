@@ -160,6 +160,11 @@ TEST_F(Worker, LooksFromAFewMetresAndNotFromTheWidestPlace) {
   const auto answer = ask(DetourRequest{{-4.0, 0.0}, Eigen::Vector2d(0.0, 0.0)}, {{{0.0, 0.0}, 0.6}});
   ASSERT_TRUE(answer.detour);
   EXPECT_NEAR(answer.detour->path.points_map_m.back().x(), 3.0, 0.3);
+  pose.x_m = 3.4;
+  EXPECT_FALSE(ask(DetourRequest{{-4.0, 0.0}, Eigen::Vector2d(0.0, 0.0), true}, {{{0.0, 0.0}, 0.6}}).detour)
+      << "not worth a flight";
+  pose.x_m = 10.0;
+  EXPECT_TRUE(ask(DetourRequest{{-4.0, 0.0}, Eigen::Vector2d(0.0, 0.0), true}, {{{0.0, 0.0}, 0.6}}).detour);
 }
 
 TEST_F(Worker, FliesToSeeWhetherTheDoorIsStillBlocked) {
