@@ -54,6 +54,11 @@ std::string peopleAllRound(const Percept& percept, const Navigator& navigator) {
   return planning::landingPlace(*map, percept.estimator->seenSurfaces(), here_map_m, needs) ? why : std::string();
 }
 
+bool isHome(const common::Intent& intent, const Eigen::Vector2d& home_map_m) {
+  const auto* goal = std::get_if<common::GoToIntent>(&intent.kind);
+  return goal != nullptr && (goal->goal_map_m - home_map_m).norm() < common::kHomeShift_m;
+}
+
 }  // namespace
 
 Commander::Commander(const AutonomyConfig& config, AutonomySetup& setup, common::EventLog& log)
@@ -215,6 +220,7 @@ VehicleCondition Commander::condition(const Percept& percept, const Navigator& n
   VehicleCondition condition;
   condition.flight = navigator.controller().state();
   condition.lands = std::holds_alternative<common::LandIntent>(decision_.intent.kind);
+  condition.goes_home = isHome(decision_.intent, context_.world->vehicle->home_map.position_m());
   condition.energy = *context_.world->energy;
   condition.gauge_fault = percept.consumption->gaugeFault(percept.now);
   const common::VehicleState& state = percept.state;

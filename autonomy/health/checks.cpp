@@ -72,7 +72,7 @@ std::string positionUncertain(const Condition& condition, const Config&) {
 
 /// Without a known share for the flight home there is none to keep.
 Reading chargeForHome(const Condition& condition, const Config& config, bool) {
-  if (!condition.energy.home_share || condition.lands) return {};
+  if (!condition.energy.home_share || condition.lands || condition.goes_home) return {};
   const double left = condition.energy.battery_remaining - landShare(condition, config) - config.home_reserve_share;
   return atMost(left, kHomeNeedFactor * *condition.energy.home_share);
 }

@@ -44,6 +44,7 @@ struct VehicleCondition {
   std::string sensor_lies;
   std::string people_all_round;  ///< Why no course is free of people, over level ground; empty if one is.
   bool lands = false;            ///< The vehicle is about to land where it is, and needs no path home.
+  bool goes_home = false;        ///< The mission flies home already, and need not be told to.
 };
 
 /// A value against the bound beyond which it is a finding.

@@ -241,7 +241,8 @@ FusionStatus ErrorStateFilter::status() const {
   if (f.history.diverged()) return FusionStatus::kDiverged;
   const Slot& newest = f.history.newest();
   const FilterState& s = newest.state;
-  const bool recovered = s.recent_recoveries > 0 && (s.stamp - s.last_recovery).seconds() < f.config.recovery_window_s;
+  const bool recovered =
+      s.recoveries.recent > 0 && (s.stamp - s.recoveries.last).seconds() < f.config.recovery_window_s;
   return f.horizontalFresh(newest) && f.verticalFresh(newest) && !recovered ? FusionStatus::kOk
                                                                             : FusionStatus::kDegraded;
 }
@@ -257,10 +258,10 @@ FusionHealth ErrorStateFilter::health() const {
     return {now, fmt::format("diverged: speed {:.1f} m/s, velocity sigma {:.2f} m/s, {} forced recoveries",
                              s.velocity_odom_m_s.norm(),
                              std::sqrt(std::max(0.0, s.covariance.diagonal().segment<3>(kVelocity).maxCoeff())),
-                             s.recoveries)};
+                             s.recoveries.all)};
   if (!f.horizontalFresh(newest)) return {now, fmt::format("no usable relative pose for {:.2f} s", horizontalAge_s(s))};
   if (!f.verticalFresh(newest)) return {now, fmt::format("no usable height for {:.2f} s", verticalAge_s(s))};
-  return {now, fmt::format("gate forced open {} times", s.recent_recoveries)};
+  return {now, fmt::format("gate forced open {} times", s.recoveries.recent)};
 }
 
 bool ErrorStateFilter::refusesRelativePoses() const {
@@ -275,7 +276,7 @@ FusionCounts ErrorStateFilter::counts() const {
   out.replays = f.history.replays();
   out.relative_poses_gated = s.relative_gate.rejected;
   out.heights_gated = s.height_gate.rejected;
-  out.recoveries = s.recoveries;
+  out.recoveries = s.recoveries.all;
   out.relative_poses = s.relative_gate.innovations;
   out.heights = s.height_gate.innovations;
   return out;

@@ -68,6 +68,19 @@ struct DragStretch {
   Eigen::Vector2d velocity_sum_m = Eigen::Vector2d::Zero();
 };
 
+/// Gates that were opened by force.
+struct Recoveries {
+  std::uint64_t all = 0;
+  int recent = 0;
+  common::Time last;
+};
+
+/// When the tilt last agreed with that of the AHRS, and what upDirection() was off by then.
+struct TiltAgreement {
+  common::Time at;
+  Eigen::Vector2d off = Eigen::Vector2d::Zero();
+};
+
 struct FilterState {
   common::Time stamp;
   Eigen::Vector3d position_odom_m = Eigen::Vector3d::Zero();
@@ -79,10 +92,7 @@ struct FilterState {
   Eigen::Vector2d wind_odom_m_s = Eigen::Vector2d::Zero();
   Eigen::Vector2d ahrs_yaw_off = Eigen::Vector2d::Zero();  ///< rad, rad/s: offset of the AHRS's yaw, and its drift.
 
-  /// When the tilt last agreed with the AHRS, and what upDirection() was off by then.
-  common::Time ahrs_agreed;
-  Eigen::Vector2d ahrs_off = Eigen::Vector2d::Zero();
-
+  TiltAgreement tilt_by_ahrs;
   DragStretch drag_stretch;
   /// The mean of what drag measurements were off by lately, without outliers, along the body's x and y.
   Eigen::Vector2d drag_excess_m_s2 = Eigen::Vector2d::Zero();
@@ -96,9 +106,7 @@ struct FilterState {
   GateMemory relative_gate;
   GateMemory height_gate;
   GateMemory spatial_gate;  ///< Of relative poses in space.
-  std::uint64_t recoveries = 0;
-  int recent_recoveries = 0;
-  common::Time last_recovery;
+  Recoveries recoveries;
   bool diverged = false;
 
   int dimension() const { return kCore + kCloneSize * clone_count; }

@@ -117,12 +117,10 @@ void widenGyroscope(FilterState& state, const Eigen::Vector2d& off, const Eigen:
 }
 
 void recover(FilterState& state) {
-  const bool recent =
-      state.recent_recoveries > 0 && (state.stamp - state.last_recovery).seconds() < FusionConfig::recovery_window_s;
-  state.recent_recoveries = recent ? state.recent_recoveries + 1 : 1;
-  state.last_recovery = state.stamp;
-  ++state.recoveries;
-  if (state.recent_recoveries > kMaxRecoveries) state.diverged = true;
+  Recoveries& r = state.recoveries;
+  const bool recent = r.recent > 0 && (state.stamp - r.last).seconds() < FusionConfig::recovery_window_s;
+  r = {r.all + 1, recent ? r.recent + 1 : 1, state.stamp};
+  if (r.recent > kMaxRecoveries) state.diverged = true;
 }
 
 void watch(FilterState& state) {
@@ -260,20 +258,17 @@ void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body
   if (mahalanobis2(state, m) > square(kAhrsGate)) {
     // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong
     // attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
-    const double slipped2 = m.residual.squaredNorm(), since_s = (state.stamp - state.ahrs_agreed).seconds();
+    const double slipped2 = m.residual.squaredNorm(), since_s = (state.stamp - state.tilt_by_ahrs.at).seconds();
     auto diagonal = state.covariance.diagonal();
     const double updates = since_s * config_.attitude_rate_hz;
     if (updates > kFewestUpdates && updates < kMostUpdates) {
-      widenGyroscope(state, m.residual, m.residual - state.ahrs_off, since_s);
+      widenGyroscope(state, m.residual, m.residual - state.tilt_by_ahrs.off, since_s);
     } else {
       diagonal.segment<2>(kAttitude).array() += slipped2;
       diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
     }
   } else {
-    if (mahalanobis2(state, m) <= 2.0) {  // Their mean.
-      state.ahrs_agreed = state.stamp;
-      state.ahrs_off = m.residual;
-    }
+    if (mahalanobis2(state, m) <= 2.0) state.tilt_by_ahrs = {state.stamp, m.residual};  // Their mean.
     // N samples whose error has the correlation time tau contain as much information as samples of white noise of this
     // variance (integral of the autocorrelation).
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;

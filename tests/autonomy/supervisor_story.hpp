@@ -30,6 +30,7 @@ class SupervisorStory : public testing::Test {
     condition.position_measured = measured_;
     condition.sensor_lies = sensor_lies_;
     condition.lands = lands_;
+    condition.goes_home = goes_home_;
     condition.people_all_round = people_all_round_;
     return supervisor_.tick(Time::fromSeconds(t_s), std::move(condition));
   }
@@ -45,6 +46,7 @@ class SupervisorStory : public testing::Test {
   bool measured_ = false;
   std::string sensor_lies_;
   bool lands_ = false;
+  bool goes_home_ = false;
   std::string people_all_round_;
 };
 

@@ -227,6 +227,17 @@ TEST_F(SupervisorStory, TurnsBackWhileTheChargeSufficesAndLandsAtHome) {
   EXPECT_THAT(at(30.0).land_reason, HasSubstr("home reached, turned back"));
 }
 
+TEST_F(SupervisorStory, AMissionThatFliesHomeIsNotTurnedBack) {
+  energy_.battery_remaining = 0.19;
+  energy_.home_m = 20.0;
+  energy_.home_share = 0.05;
+  energy_.home_planned = true;
+  goes_home_ = true;
+  EXPECT_EQ(at(1.0).home, 0u);
+  goes_home_ = false;  // It could not get there.
+  EXPECT_EQ(at(2.0).home, 1u);
+}
+
 TEST_F(SupervisorStory, AMissionThatHasFailedFliesHomeAndLandsThere) {
   at(1.0);
   supervisor_.missionFailed(Time::fromSeconds(1.5), "goal (6.00, 2.00) is unreachable");
