@@ -10,8 +10,7 @@ Detour::Detour(const ManeuverSetup& setup, PathFlight& flight)
     : config_(setup.config), memory_(setup.memory), flight_(flight) {}
 
 bool Detour::due(Time stuck_since, Time now, const std::optional<Eigen::Vector2d>& blocked_map_m) const {
-  /// Farther away it may be out of sight. Somebody who stands sways by less.
-  constexpr double kSame_m = 0.4;
+  constexpr double kSame_m = 0.4;  // Farther away it may be out of sight. Somebody who stands sways by less.
   const bool same = !blocked_map_m || !blocked_map_m_ || (*blocked_map_m - *blocked_map_m_).norm() < kSame_m;
   if (flight_.plan() || (same && asked_ >= (blocked_map_m ? 1 : 2))) return false;
   return (now - std::max(stuck_since, since_.value_or(stuck_since))).seconds() >= config_.detour_after_s;

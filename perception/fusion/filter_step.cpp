@@ -107,9 +107,10 @@ void widenAccelerometer(FilterState& state, double jump_m_s2, double since_s) {
 /// A gyroscope whose bias has jumped has turned the tilt to where it is off by `off`, by `slipped` of it in `since_s`
 /// (both as upDirection() measures them): one cause, so that the tilt and the bias are off together.
 void widenGyroscope(FilterState& state, const Eigen::Vector2d& off, const Eigen::Vector2d& slipped, double since_s) {
-  const Eigen::Vector3d rate_rad_s = Eigen::Vector3d(slipped.y(), -slipped.x(), 0.0) / since_s;
+  const auto tilt = [](const Eigen::Vector2d& up) { return Eigen::Vector3d(up.y(), -up.x(), 0.0); };
+  const Eigen::Vector3d rate_rad_s = tilt(slipped) / since_s;
   Eigen::Matrix<double, kCore, 1> cause = Eigen::Matrix<double, kCore, 1>::Zero();
-  cause.segment<3>(kAttitude) << off.y(), -off.x(), 0.0;
+  cause.segment<3>(kAttitude) = tilt(off);
   cause.segment<3>(kGyroscopeBias) = -(state.rotation_odom_body.conjugate() * rate_rad_s);
   state.covariance.topLeftCorner<kCore, kCore>() += cause * cause.transpose();
   // Of the yaw, which no tilt shows.
@@ -255,20 +256,23 @@ void FilterStep::applySlot(FilterState& state, const Slot& s) const {
 void FilterStep::updateByAhrs(FilterState& state, const Eigen::Vector3d& up_body) const {
   const double variance = square(config_.ahrs_sigma_deg * kRadPerDeg);
   Linearized<2> m = upDirection(state, up_body, variance);
-  if (mahalanobis2(state, m) > square(kAhrsGate)) {
-    // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it the bias. A wrong
-    // attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical one.
-    const double slipped2 = m.residual.squaredNorm(), since_s = (state.stamp - state.tilt_by_ahrs.at).seconds();
-    auto diagonal = state.covariance.diagonal();
+  const double off2 = mahalanobis2(state, m);
+  if (off2 > square(kAhrsGate)) {
+    // An AHRS is hardly ever wrong by that much, so the filter's attitude is wrong, and with it a bias.
+    const double since_s = (state.stamp - state.tilt_by_ahrs.at).seconds();
     const double updates = since_s * config_.attitude_rate_hz;
     if (updates > kFewestUpdates && updates < kMostUpdates) {
       widenGyroscope(state, m.residual, m.residual - state.tilt_by_ahrs.off, since_s);
     } else {
+      // A wrong attitude moves a part of gravity into the horizontal axes and takes almost nothing from the vertical
+      // one.
+      const double slipped2 = m.residual.squaredNorm();
+      auto diagonal = state.covariance.diagonal();
       diagonal.segment<2>(kAttitude).array() += slipped2;
       diagonal.segment<2>(kAccelerometerBias).array() += square(config_.gravity_m_s2) * slipped2;
     }
   } else {
-    if (mahalanobis2(state, m) <= 2.0) state.tilt_by_ahrs = {state.stamp, m.residual};  // Their mean.
+    if (off2 <= 2.0) state.tilt_by_ahrs = {state.stamp, m.residual};  // Their mean.
     // N samples whose error has the correlation time tau contain as much information as samples of white noise of this
     // variance (integral of the autocorrelation).
     m.noise *= 1.0 + 2.0 * config_.ahrs_correlation_s * config_.attitude_rate_hz;

@@ -38,6 +38,15 @@ struct Worker : testing::Test {
     request.question = std::move(question);
     return worker.answer(request);
   }
+  /// Looks from viewpoint to viewpoint of a map that stays as it is, until there is none.
+  PlanningAnswer explore(const std::vector<common::Disc>& discs = {}) {
+    constexpr int kMostLooks = 20;
+    for (int looks = 0;; ++looks) {
+      PlanningAnswer answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt}, discs);
+      if (looks == kMostLooks || !answer.exploration->next) return answer;
+      attempts.push_back(planning::attemptFrom(*answer.exploration->next));
+    }
+  }
   /// A wall at x = 4 m with a door of `door_cells` cells around y = 2 m.
   void build(int door_cells) {
     for (int y = 0; y < 80; ++y)
@@ -259,11 +268,7 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
   stand(*grid, {4.0, 2.0});
   for (double side_m : {-0.4, 0.4})  // Seen past him.
     for (double x_m = 4.0; x_m < 6.5; x_m += 0.02) grid->set(grid->cellAt(x_m, 2.0 + side_m), -100);
-  auto answer = ask(ExploreRequest{});
-  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
-    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
-  }
+  auto answer = explore();
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage);
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at (4.0")) << answer.blockage->who;
@@ -276,11 +281,7 @@ TEST_F(Worker, AnExplorationIsIncompleteBehindSomebodyInTheDoor) {
       if (common::occupancy::isOccupied(grid->at({x, y})) && (x + y) % 3 != 0) grid->set({x, y}, -100);
   grid->set(grid->cellAt(4.0, 1.9), common::occupancy::kMaxSteps);
   grid->set(grid->cellAt(4.0, 2.1), common::occupancy::kMaxSteps);
-  answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
-  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
-    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
-  }
+  answer = explore();
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage) << "nobody has gone";
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at ")) << answer.blockage->who;
@@ -299,11 +300,7 @@ TEST_F(Worker, TheNearSideOfSomebodyInTheDoorIsWaitedFor) {
       if (off_m.norm() > 0.25 || off_m.norm() < 0.2 || off_m.dot(from - person) < 0.0) continue;
       grid->set(grid->cellAt(person + off_m), common::occupancy::kMaxSteps);
     }
-  auto answer = ask(ExploreRequest{});
-  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
-    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
-  }
+  auto answer = explore();
   ASSERT_TRUE(answer.exploration->done);
   ASSERT_TRUE(answer.blockage);
   EXPECT_TRUE(answer.blockage->who.starts_with("something as wide as a person at ")) << answer.blockage->who;
@@ -315,11 +312,7 @@ TEST_F(Worker, APieceOfAWallIsNotWaitedFor) {
     for (int x = 80; x < 160; ++x) grid->set({x, y}, common::occupancy::kUnknown);
   build(0);
   for (int y : {33, 34, 44, 45}) grid->set({80, y}, common::occupancy::kUnknown);
-  auto answer = ask(ExploreRequest{});
-  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
-    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt});
-  }
+  auto answer = explore();
   ASSERT_TRUE(answer.exploration->done);
   EXPECT_FALSE(answer.blockage) << answer.blockage->who;
 }
@@ -334,11 +327,7 @@ TEST_F(Worker, BlockedFrontiersAreToldFromWalledOnesEachWithWhoIsInTheWay) {
   people = {{1, {4.0, 1.0}, 0.25, {0.3, 0.0}, true, {}}, {2, {4.0, 3.0}, 0.25, {0.3, 0.0}, true, {}}};
   std::vector<common::Disc> discs;
   for (const common::DynamicObstacle& person : people) discs.push_back({person.center_map_m, 0.6});
-  auto answer = ask(ExploreRequest{}, discs);
-  for (int looks = 0; looks < 20 && answer.exploration->next; ++looks) {
-    attempts.push_back(planning::attemptFrom(*answer.exploration->next));
-    answer = ask(ExploreRequest{std::nullopt, attempts, std::nullopt}, discs);
-  }
+  auto answer = explore(discs);
   ASSERT_TRUE(answer.blockage);
   EXPECT_EQ(blockedFrontiers(answer).size(), static_cast<std::size_t>(answer.blockage->frontiers));
   EXPECT_THAT(answer.blockage->who, AllOf(HasSubstr("a person at (4.00, 1.00)"), HasSubstr(" and a person at ")));
